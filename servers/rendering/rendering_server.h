@@ -16,17 +16,6 @@ class RenderingDevice;
 struct PassTiming;
 struct MemoryReport;
 
-// What GI did, for --stats and for deciding when a picture is done.
-struct GiStats {
-	uint64_t frames = 0; // since the last reset
-	bool converged = false; // nothing will change until the scene does
-	uint64_t rays = 0; // in the last frame
-	uint64_t surface_cells = 0; // alive, all cascades
-	uint64_t surface_records = 0;
-	uint64_t probes = 0;
-	uint64_t bytes = 0; // GPU memory of GI
-};
-
 struct FrameStats {
 	GiStats gi;
 	uint64_t draws = 0;

@@ -5,7 +5,6 @@
 #include "servers/rendering/device/pass_recorder.h"
 #include "servers/rendering/gi/sdfgi/sdfgi_settings.h"
 #include "servers/rendering/gpu_scene.h"
-#include "servers/rendering/rendering_server.h"
 
 #include <memory>
 #include <string>
