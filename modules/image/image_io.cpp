@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "modules/image/image_io.h"
+
+#include "servers/core/file_io.h"
+
+#include <climits>
+#include <cstring>
+
+#define STBI_MAX_DIMENSIONS 32768
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
+#define STBI_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
+
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+
+namespace lucent {
+
+static_assert(STBI_MAX_DIMENSIONS == MAX_IMAGE_SIDE_TEXELS);
+
+namespace {
+
+bool begins_with(std::span<const std::byte> p_bytes, std::string_view p_magic) {
+	return p_bytes.size() >= p_magic.size() && std::memcmp(p_bytes.data(), p_magic.data(), p_magic.size()) == 0;
+}
+
+Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::string &p_name, const char *p_kind) {
+	if (p_bytes.size() > INT_MAX) {
+		return make_error("{}: {} bytes are more than the limit of {}", p_name, p_bytes.size(), INT_MAX);
+	}
+	const stbi_uc *bytes = reinterpret_cast<const stbi_uc *>(p_bytes.data());
+	const int size = int(p_bytes.size());
+	int width = 0, height = 0, channels = 0;
+	if (!stbi_info_from_memory(bytes, size, &width, &height, &channels) || width <= 0 || height <= 0) {
+		return make_error("{}: broken {} header ({})", p_name, p_kind, stbi_failure_reason());
+	}
+	if (uint32_t(width) > MAX_IMAGE_SIDE_TEXELS || uint32_t(height) > MAX_IMAGE_SIDE_TEXELS || uint64_t(width) * uint64_t(height) > MAX_IMAGE_TEXELS) {
+		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, width, height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	}
+	Image image;
+	void *texels = nullptr;
+	if (stbi_is_hdr_from_memory(bytes, size)) {
+		image.format = ImageFormat::RGBA32F;
+		texels = stbi_loadf_from_memory(bytes, size, &width, &height, &channels, 4);
+	} else {
+		texels = stbi_load_from_memory(bytes, size, &width, &height, &channels, 4);
+	}
+	if (!texels) {
+		return make_error("{}: broken or truncated {} data ({})", p_name, p_kind, stbi_failure_reason());
+	}
+	image.width = uint32_t(width);
+	image.height = uint32_t(height);
+	image.texels.resize(size_t(width) * size_t(height) * image.texel_size_bytes());
+	std::memcpy(image.texels.data(), texels, image.texels.size());
+	stbi_image_free(texels);
+	return image;
+}
+
+const std::vector<float> *find_channel(const ExrImage &p_exr, const std::string &p_name) {
+	const ExrChannel *channel = p_exr.find(p_name);
+	return channel ? &channel->values : nullptr;
+}
+
+// The prefix ("" or "layer.") of the channels that stand for the picture; "!" when there are none.
+std::string picture_prefix(const ExrImage &p_exr) {
+	if (p_exr.find("R") && p_exr.find("G") && p_exr.find("B")) {
+		return "";
+	}
+	for (const ExrChannel &channel : p_exr.channels) {
+		const std::string prefix = channel.name.substr(0, channel.name.rfind('.') + 1);
+		if (p_exr.find(prefix + "R") && p_exr.find(prefix + "G") && p_exr.find(prefix + "B")) {
+			return prefix;
+		}
+	}
+	return "!";
+}
+
+Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_name) {
+	const Result<ExrImage> read = read_exr_layers_from_memory(p_bytes, p_name);
+	if (!read) {
+		return read.error();
+	}
+	const ExrImage &exr = read.value();
+	if (uint64_t(exr.width) * exr.height > MAX_IMAGE_TEXELS) {
+		return make_error("{}: {} x {} texels are more than the limit of {}", p_name, exr.width, exr.height, MAX_IMAGE_TEXELS);
+	}
+	const std::vector<float> *sources[4] = {};
+	const std::string prefix = exr.find("Y") && !exr.find("R") ? "!" : picture_prefix(exr);
+	if (prefix != "!") {
+		const char *names[] = {"R", "G", "B", "A"};
+		for (int c = 0; c < 4; c++) {
+			sources[c] = find_channel(exr, prefix + names[c]);
+		}
+	} else {
+		sources[0] = sources[1] = sources[2] = find_channel(exr, "Y");
+		sources[3] = find_channel(exr, "A");
+	}
+	if (!sources[0]) {
+		return make_error("{}: expected the channels R, G and B, or Y; the first of its {} is '{}'", p_name, exr.channels.size(), exr.channels[0].name);
+	}
+	Image image{ImageFormat::RGBA32F, exr.width, exr.height, {}};
+	const size_t count = size_t(exr.width) * exr.height;
+	image.texels.resize(count * 16);
+	for (size_t i = 0; i < count; i++) {
+		float texel[4];
+		for (int c = 0; c < 4; c++) {
+			texel[c] = sources[c] ? (*sources[c])[i] : 1.0f;
+		}
+		std::memcpy(image.texels.data() + i * 16, texel, 16);
+	}
+	return image;
+}
+
+} // namespace
+
+Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const std::string &p_name) {
+	if (p_bytes.empty()) {
+		return make_error("{}: the file is empty, expected a PNG, JPEG, HDR or EXR image", p_name);
+	}
+	if (begins_with(p_bytes, "\x89PNG")) {
+		return load_with_stb(p_bytes, p_name, "PNG");
+	}
+	if (begins_with(p_bytes, "\xff\xd8\xff")) {
+		return load_with_stb(p_bytes, p_name, "JPEG");
+	}
+	if (begins_with(p_bytes, "#?RADIANCE") || begins_with(p_bytes, "#?RGBE")) {
+		return load_with_stb(p_bytes, p_name, "HDR");
+	}
+	if (begins_with(p_bytes, "\x76\x2f\x31\x01")) {
+		return load_exr(p_bytes, p_name);
+	}
+	return make_error("{}: expected a PNG, JPEG, HDR or EXR image, found another kind of file", p_name);
+}
+
+Result<Image> load_image(const std::string &p_path) {
+	const Result<std::vector<std::byte>> bytes = read_file(p_path);
+	if (!bytes) {
+		return bytes.error();
+	}
+	return load_image_from_memory(bytes.value(), p_path);
+}
+
+Status write_png(const std::string &p_path, uint32_t p_width, uint32_t p_height, uint32_t p_channels, std::span<const uint8_t> p_values) {
+	ERR_FAIL_COND_V_MSG(p_channels != 1 && p_channels != 3 && p_channels != 4, make_error("{}: a PNG has 1, 3 or 4 channels, not {}", p_path, p_channels), "unsupported channel count {}", p_channels);
+	if (p_width == 0 || p_height == 0 || uint64_t(p_width) * p_height > MAX_IMAGE_TEXELS) {
+		return make_error("{}: cannot write a PNG of {} x {} texels", p_path, p_width, p_height);
+	}
+	INVARIANT(p_values.size() == size_t(p_width) * p_height * p_channels, "{} values for {} x {} x {}", p_values.size(), p_width, p_height, p_channels);
+	std::vector<std::byte> file;
+	const auto append = [](void *p_context, void *p_data, int p_size) {
+		const std::byte *data = static_cast<const std::byte *>(p_data);
+		std::vector<std::byte> &bytes = *static_cast<std::vector<std::byte> *>(p_context);
+		bytes.insert(bytes.end(), data, data + p_size);
+	};
+	if (!stbi_write_png_to_func(append, &file, int(p_width), int(p_height), int(p_channels), p_values.data(), int(p_width * p_channels))) {
+		return make_error("{}: out of memory while compressing", p_path);
+	}
+	return write_file(p_path, file);
+}
+
+} // namespace lucent
