@@ -142,6 +142,7 @@ int main(int p_argument_count, char **p_arguments) {
 
 	doctest::Context context;
 	context.setOption("no-version", true);
+	context.setOption("minimal", true);
 	context.applyCommandLine(int(arguments.size()), arguments.data());
 	if (selection != Selection::ALL) {
 		context.addFilter(selection == Selection::GPU ? "test-suite" : "test-suite-exclude", "gpu");

@@ -23,8 +23,10 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
 public:
-	Result(T p_value) : stored_value(std::move(p_value)) {}
-	Result(Error p_error) : stored_error(std::move(p_error)) {}
+	Result(T p_value) :
+			stored_value(std::move(p_value)) {}
+	Result(Error p_error) :
+			stored_error(std::move(p_error)) {}
 
 	bool ok() const { return stored_value.has_value(); }
 	explicit operator bool() const { return ok(); }
@@ -66,26 +68,26 @@ void report_caller_error(const char *p_function, const char *p_file, int p_line,
 
 } // namespace lucent
 
-#define ERR_FAIL_COND_MSG(m_cond, ...)                                                                             \
-	do {                                                                                                           \
-		if (m_cond) [[unlikely]] {                                                                                 \
-			::lucent::report_caller_error(__func__, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__));               \
-			return;                                                                                                \
-		}                                                                                                          \
+#define ERR_FAIL_COND_MSG(m_cond, ...) \
+	do { \
+		if (m_cond) [[unlikely]] { \
+			::lucent::report_caller_error(__func__, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
+			return; \
+		} \
 	} while (false)
 
-#define ERR_FAIL_COND_V_MSG(m_cond, m_return, ...)                                                                 \
-	do {                                                                                                           \
-		if (m_cond) [[unlikely]] {                                                                                 \
-			::lucent::report_caller_error(__func__, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__));               \
-			return m_return;                                                                                       \
-		}                                                                                                          \
+#define ERR_FAIL_COND_V_MSG(m_cond, m_return, ...) \
+	do { \
+		if (m_cond) [[unlikely]] { \
+			::lucent::report_caller_error(__func__, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
+			return m_return; \
+		} \
 	} while (false)
 
 // INVARIANT(size == expected, "size {} is not {}", size, expected)
-#define INVARIANT(m_cond, ...)                                                                                     \
-	do {                                                                                                           \
-		if (!(m_cond)) [[unlikely]] {                                                                              \
-			::lucent::invariant_failed(__func__, __FILE__, __LINE__, #m_cond, ::fmt::format(__VA_ARGS__));         \
-		}                                                                                                          \
+#define INVARIANT(m_cond, ...) \
+	do { \
+		if (!(m_cond)) [[unlikely]] { \
+			::lucent::invariant_failed(__func__, __FILE__, __LINE__, #m_cond, ::fmt::format(__VA_ARGS__)); \
+		} \
 	} while (false)

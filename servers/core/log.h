@@ -10,7 +10,11 @@
 
 namespace lucent {
 
-enum class LogLevel { INFO, WARNING, ERROR };
+enum class LogLevel {
+	INFO,
+	WARNING,
+	ERROR
+};
 
 // Receives every message; the default writes `warning: …` and `error: …` to stderr, INFO only when verbose.
 using LogHandler = std::function<void(LogLevel, std::string_view)>;

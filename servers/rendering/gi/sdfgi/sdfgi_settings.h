@@ -6,7 +6,11 @@
 
 namespace lucent {
 
-enum class SdfgiYScale : uint8_t { SCALE_50_PERCENT, SCALE_75_PERCENT, SCALE_100_PERCENT };
+enum class SdfgiYScale : uint8_t {
+	SCALE_50_PERCENT,
+	SCALE_75_PERCENT,
+	SCALE_100_PERCENT
+};
 
 // World y is multiplied by this before everything: cells are flatter than wide.
 inline float sdfgi_y_multiplier(SdfgiYScale p_scale) {

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# The command `./lucent test`; sourced by the launcher, whose functions and lists it uses.
+
+test_usage() {
+	cat <<'TEXT'
+usage: ./lucent test [--ci] [--device NAME] [--filter TEXT]
+
+  --device NAME  run the GPU tests on this device (index or part of its name) instead of lavapipe, the CPU device of Mesa
+  --filter TEXT  only cases with TEXT in their names, and none of the other checks
+  --ci           also: unit tests under the address and undefined-behaviour sanitizers (built by clang), GPU tests on SwiftShader
+
+Steps: checks of the tree, unit tests, GPU tests under validation, tests of the command line. The last line is `N passed, N failed`.
+TEXT
+}
+
+passed=0
+failed=0
+failures=()
+
+# step NAME COMMAND…: a check that passes or fails as a whole.
+step() {
+	local name=$1 start=$SECONDS
+	shift
+	say "== $name"
+	if "$@"; then
+		passed=$((passed + 1))
+	else
+		failed=$((failed + 1))
+		failures+=("$name")
+	fi
+	say "== $name: $((SECONDS - start)) s"
+}
+
+# suite NAME COMMAND…: a test program that writes "PASSED FAILED SKIPPED" into the file that --results names.
+suite() {
+	local name=$1 start=$SECONDS results=$root/bin/test_results status=0 ok=0 bad=0 skipped=0
+	shift
+	rm -f "$results"
+	say "== $name"
+	"$@" --results "$results" || status=$?
+	[[ -f $results ]] && read -r ok bad skipped <"$results"
+	if ((status != 0 && bad == 0)); then # it died
+		bad=1
+	fi
+	((bad == 0)) || failures+=("$name")
+	passed=$((passed + ok))
+	failed=$((failed + bad))
+	say "== $name: $ok passed, $bad failed, $skipped skipped for a missing device feature, $((SECONDS - start)) s"
+}
+
+check_format() {
+	local tool files
+	tool=$(command -v clang-format-14 || command -v clang-format)
+	find "$root"/{servers,drivers,modules,tests} -name '*.cpp' -print0 -o -name '*.h' -print0 -o -name '*.glsl' -print0 |
+		xargs -0 "$tool" --dry-run 2>"$root/bin/format.log" || true
+	files=$(sed -n 's/^\([^:]*\):[0-9].*\[-Wclang-format-violations\]$/\1/p' "$root/bin/format.log" | sort -u)
+	[[ -n $files ]] || return 0
+	say "not as clang-format -i leaves them:"
+	printf '  %s\n' $files
+	return 1
+}
+
+# gpu_suite NAME PROGRAM DEVICE ICD: ICD, if any, is the one driver that the loader sees.
+gpu_suite() {
+	local name=$1 program=$2 device=$3 icd=$4 settings=(LUCENT_VALIDATION=1)
+	[[ -z $icd ]] || settings+=(VK_DRIVER_FILES="$icd" VK_ICD_FILENAMES="$icd")
+	suite "$name" env "${settings[@]}" "$program" --gpu-only --root "$root" ${device:+--device "$device"} "${filter[@]}"
+}
+
+# Prints the ICD file of SwiftShader, which Debian has inside of Chromium. Only that one library is used, so nothing is installed.
+swiftshader_icd() {
+	local library=/usr/lib/chromium/libvk_swiftshader.so folder=$root/bin/swiftshader
+	mkdir -p "$folder"
+	if [[ ! -f $library ]]; then
+		library=$folder/usr/lib/chromium/libvk_swiftshader.so
+	fi
+	if [[ ! -f $library ]]; then
+		[[ ${LUCENT_NO_INSTALL:-0} == 0 ]] || die "SwiftShader is missing. To get it: apt-get install chromium-common"
+		(cd "$folder" && apt-get -q download chromium-common >&2 && dpkg-deb -x chromium-common_*.deb . && rm chromium-common_*.deb)
+	fi
+	printf '{"file_format_version": "1.0.0", "ICD": {"library_path": "%s", "api_version": "1.3.0"}}\n' "$library" >"$folder/icd.json"
+	printf '%s\n' "$folder/icd.json"
+}
+
+lavapipe_icd() {
+	local file
+	for file in /usr/share/vulkan/icd.d/lvp_icd.*.json /etc/vulkan/icd.d/lvp_icd.*.json; do
+		if [[ -f $file ]]; then
+			printf '%s\n' "$file"
+			return
+		fi
+	done
+	die "lavapipe is missing: install mesa-vulkan-drivers, or name a device with --device"
+}
+
+run_ci_steps() {
+	local program=$root/bin/lucent_tests.debug_asan_clang icd
+	say "== sanitizer build"
+	run_scons cxx=clang++ target=debug asan=1 tests=1 bin/lucent_tests.debug_asan_clang >&2 || die "the sanitizer build failed"
+	suite "unit tests, sanitizers" "$program" --root "$root"
+	icd=$(swiftshader_icd)
+	gpu_suite "GPU tests, SwiftShader" "$root/bin/lucent_tests" "" "$icd"
+}
+
+run_tests() {
+	local ci=0 device="" icd="" script start=$SECONDS
+	filter=()
+	while (($#)); do
+		case $1 in
+			--ci) ci=1 ;;
+			--device | --filter)
+				(($# > 1)) || { say "$1 needs a value"; exit $exit_usage; }
+				if [[ $1 == --device ]]; then device=$2; else filter=(--filter "$2"); fi
+				shift
+				;;
+			--help | -h)
+				test_usage
+				return
+				;;
+			*)
+				say "./lucent test has no option '$1'; --help lists them"
+				exit $exit_usage
+				;;
+		esac
+		shift
+	done
+
+	local packages=("${render_packages[@]}" "${test_packages[@]}")
+	((ci == 0)) || packages+=("${ci_packages[@]}")
+	ensure_packages "${packages[@]}"
+	ensure_built lucent_tests tests tests=1 bin/lucent bin/lucent_tests
+	ensure_built lucent "" bin/lucent
+	[[ -n $device ]] || icd=$(lavapipe_icd)
+
+	if ((${#filter[@]} == 0)); then
+		step "rules of the tree" python3 -B "$root/tests/check_tree.py"
+		step "format of the sources" check_format
+	fi
+	suite "unit tests" "$root/bin/lucent_tests" --root "$root" "${filter[@]}"
+	gpu_suite "GPU tests" "$root/bin/lucent_tests" "$device" "$icd"
+	if ((${#filter[@]} == 0)); then
+		for script in "$root"/tests/cli/*.py; do
+			[[ ! -f $script ]] || suite "${script#"$root/"}" env ${icd:+VK_DRIVER_FILES="$icd"} python3 -B "$script"
+		done
+		((ci == 0)) || run_ci_steps
+	fi
+
+	((${#failures[@]} == 0)) || say "failed in: $(printf '%s; ' "${failures[@]}")"
+	say "tests took $((SECONDS - start)) s"
+	printf '%d passed, %d failed\n' "$passed" "$failed"
+	((failed == 0))
+}
