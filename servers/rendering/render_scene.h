@@ -258,6 +258,7 @@ struct RenderScene {
 	RidOwner<Camera, CameraTag> cameras;
 	RidOwner<Scenario, ScenarioTag> scenarios;
 	RidOwner<Viewport, ViewportTag> viewports;
+	uint64_t version = 0; // grows with every edit; the source of all other versions
 
 	// The material that draws surface p_surface of p_instance: override, surface override, the mesh's own, or null (default material).
 	const Material *surface_material(const Instance &p_instance, const Mesh &p_mesh, uint32_t p_surface) const;
