@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// What a property accepts.
+#include "servers/core/class_db.h"
+
+#include <algorithm>
+
+namespace lucent {
+
+std::string PropertyInfo::get_hint_string() const {
+	std::string text;
+	switch (hint) {
+		case PropertyHint::RANGE:
+			text = fmt::format("{},{},{}", range.min, range.max, range.step);
+			text += range.or_less ? ",or_less" : "";
+			text += range.or_greater ? ",or_greater" : "";
+			break;
+		case PropertyHint::ENUM:
+		case PropertyHint::FLAGS:
+			for (const ConstantInfo &constant : ClassDB::get_enum_constants(class_name)) {
+				text += fmt::format("{}{}:{}", text.empty() ? "" : ",", constant.name, constant.value);
+			}
+			break;
+		case PropertyHint::RESOURCE_TYPE:
+			text = class_name;
+			break;
+		case PropertyHint::NONE:
+			break;
+	}
+	return text;
+}
+
+static std::string describe(const Variant &p_value) {
+	const Object *object = p_value.get_object();
+	return object ? std::string(object->get_class()) : p_value.to_string();
+}
+
+static bool is_finite(const Variant &p_value) {
+	const auto finite = [](auto p_vector) { return !glm::any(glm::isnan(p_vector)) && !glm::any(glm::isinf(p_vector)); };
+	switch (p_value.get_type()) {
+		case Variant::Type::FLOAT:
+			return std::isfinite(*p_value.get_if<double>());
+		case Variant::Type::VECTOR2:
+			return finite(*p_value.get_if<Vector2>());
+		case Variant::Type::VECTOR3:
+			return finite(*p_value.get_if<Vector3>());
+		case Variant::Type::VECTOR4:
+			return finite(*p_value.get_if<Vector4>());
+		case Variant::Type::QUATERNION: {
+			const Quaternion &q = *p_value.get_if<Quaternion>();
+			return finite(Vector4(q.x, q.y, q.z, q.w));
+		}
+		case Variant::Type::BASIS: {
+			const Basis &basis = *p_value.get_if<Basis>();
+			return finite(basis[0]) && finite(basis[1]) && finite(basis[2]);
+		}
+		case Variant::Type::TRANSFORM3D: {
+			const Transform3D &transform = *p_value.get_if<Transform3D>();
+			return is_finite(transform.basis) && finite(transform.origin);
+		}
+		case Variant::Type::COLOR: {
+			const Color &color = *p_value.get_if<Color>();
+			return finite(Vector4(color.r, color.g, color.b, color.a));
+		}
+		default:
+			return true;
+	}
+}
+
+Status PropertyInfo::checked_set(Object &r_object, const Variant &p_value) const {
+	const std::string full_name = std::string(r_object.get_class()) + "." + name;
+	if (!set) {
+		return make_error("{} is read-only", full_name);
+	}
+	if (!is_finite(p_value)) {
+		return make_error("{} must be finite, got {}", full_name, p_value.to_string());
+	}
+	const std::optional<double> number = variant_to_float(p_value);
+	if (hint == PropertyHint::RANGE && number) {
+		// Bounds and values pass through float: 0.01f must not fall below 0.01.
+		const double tolerance = 1e-6 * std::max(std::abs(range.min), std::abs(range.max));
+		if ((!range.or_less && *number < range.min - tolerance) || (!range.or_greater && *number > range.max + tolerance)) {
+			return make_error("{} must be between {} and {}, got {}", full_name, range.or_less ? "-inf" : fmt::format("{}", range.min),
+					range.or_greater ? "inf" : fmt::format("{}", range.max), p_value.to_string());
+		}
+	}
+	if (hint == PropertyHint::ENUM && number) {
+		const std::vector<ConstantInfo> constants = ClassDB::get_enum_constants(class_name);
+		if (std::none_of(constants.begin(), constants.end(), [&](const ConstantInfo &p_constant) { return double(p_constant.value) == *number; })) {
+			return make_error("{} must be one of {}, got {}", full_name, get_hint_string(), p_value.to_string());
+		}
+	}
+	if (!set(r_object, p_value)) {
+		const std::string expected = hint == PropertyHint::RESOURCE_TYPE ? class_name : Variant::get_type_name(type);
+		return make_error("{} expects {}, got {}", full_name, expected, describe(p_value));
+	}
+	return Ok();
+}
+
+} // namespace lucent
