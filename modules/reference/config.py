@@ -1,0 +1,1 @@
+# An optional module: present means offered as module_<name>_enabled.

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "modules/reference/light_sampler.h"
+
+#include "modules/reference/brdf_sampling.h"
+
+#include <algorithm>
+
+namespace lucent {
+
+namespace {
+
+constexpr float PI = 3.14159265358979f;
+
+float mean(const Vector3 &p_value) {
+	return (p_value.x + p_value.y + p_value.z) / 3.0f;
+}
+
+Basis basis_around(const Vector3 &p_axis) {
+	Basis basis;
+	brdf::make_tangents(p_axis, basis[0], basis[1]);
+	basis[2] = p_axis;
+	return basis;
+}
+
+// Mean emission over 16 points of the triangle and the largest of them.
+void estimate_emission(const TraceScene &p_trace, uint32_t p_surface, uint32_t p_primitive, float &r_mean, float &r_max) {
+	constexpr uint32_t STEPS = 4;
+	r_mean = r_max = 0;
+	for (uint32_t i = 0; i < STEPS * STEPS; i++) {
+		float u = (float(i % STEPS) + 0.5f) / STEPS;
+		float v = (float(i / STEPS) + 0.5f) / STEPS;
+		if (u + v > 1.0f) {
+			u = 1.0f - u;
+			v = 1.0f - v;
+		}
+		const float value = std::max(0.0f, mean(p_trace.emission(p_surface, p_primitive, u, v)) * p_trace.alpha(p_surface, p_primitive, u, v));
+		r_mean += value / (STEPS * STEPS);
+		r_max = std::max(r_max, value);
+	}
+}
+
+} // namespace
+
+LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace) {
+	std::vector<double> weights;
+	for (uint32_t i = 0; i < r_trace.surfaces.size(); i++) {
+		if (r_trace.material_of(i).emissive) {
+			add_emitters(r_trace, i, weights);
+		}
+	}
+	double total = 0;
+	for (double weight : weights) {
+		total += weight;
+	}
+	double running = 0;
+	for (size_t i = 0; i < emitters.size(); i++) {
+		emitter_cdf.push_back(float(running / total));
+		running += weights[i];
+		float &area_pdf = area_pdfs[r_trace.surfaces[emitters[i].surface].first_emitter + emitters[i].primitive];
+		area_pdf = float(weights[i] / total / area_pdf); // held the area until now
+	}
+	emitter_cdf.push_back(1.0f);
+	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
+		const Light *light = p_scene.lights.get(p_instance.light);
+		if (light && p_instance.scenario == p_scenario && p_instance.visible) {
+			add_lamp(*light, p_instance.transform);
+		}
+	});
+}
+
+void LightSampler::add_emitters(TraceScene &r_trace, uint32_t p_surface, std::vector<double> &r_weights) {
+	TraceSurface &surface = r_trace.surfaces[p_surface];
+	const uint32_t *indices = surface.mesh->indices.data();
+	const uint32_t triangle_count = uint32_t(surface.mesh->indices.size() / 3);
+	surface.first_emitter = uint32_t(area_pdfs.size());
+	area_pdfs.resize(area_pdfs.size() + triangle_count, 0.0f);
+	for (uint32_t i = 0; i < triangle_count; i++) {
+		const Vector3 &p0 = surface.positions[indices[3 * i]];
+		const float area = 0.5f * glm::length(glm::cross(surface.positions[indices[3 * i + 1]] - p0, surface.positions[indices[3 * i + 2]] - p0));
+		float average, brightest;
+		estimate_emission(r_trace, p_surface, i, average, brightest);
+		// A floor of 1e-3 of the parameter's own brightness: a texture may shine between the 16 points.
+		const float floor_value = 1e-3f * std::max(mean(r_trace.material_of(p_surface).parameters.emission), brightest);
+		const double weight = double(area) * std::max(average, floor_value);
+		if (weight > 0 && std::isfinite(weight)) {
+			emitters.push_back({ p_surface, i });
+			r_weights.push_back(weight);
+			area_pdfs[surface.first_emitter + i] = area;
+		}
+	}
+}
+
+void LightSampler::add_lamp(const Light &p_light, const Transform3D &p_transform) {
+	if (p_light.type == LightType::DIRECTIONAL && p_light.sky_mode == SkyMode::SKY_ONLY) {
+		return;
+	}
+	Lamp lamp;
+	lamp.parameters = p_light;
+	lamp.position = p_transform.origin;
+	lamp.direction = -glm::normalize(p_transform.basis[2]);
+	lamp.color = p_light.color * (p_light.negative ? -p_light.energy : p_light.energy);
+	lamp.weight = std::abs(mean(lamp.color));
+	lamp.spot_cos = std::cos(glm::radians(p_light.spot_angle_degrees));
+	lamp.sun_cos = std::cos(0.5f * glm::radians(p_light.angular_size_degrees));
+	if (lamp.weight > 0.0f) {
+		lamps.push_back(lamp);
+	}
+}
+
+EmitterSample LightSampler::sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, Random &r_random) const {
+	EmitterSample sample;
+	const float choice = r_random.next();
+	const size_t index = std::clamp<ptrdiff_t>(std::upper_bound(emitter_cdf.begin(), emitter_cdf.end(), choice) - emitter_cdf.begin() - 1, 0, ptrdiff_t(emitters.size()) - 1);
+	const auto [surface_index, primitive] = emitters[index];
+	const TraceSurface &surface = p_trace.surfaces[surface_index];
+	const uint32_t *indices = surface.mesh->indices.data() + 3 * size_t(primitive);
+	float u = r_random.next();
+	float v = r_random.next();
+	if (u + v > 1.0f) {
+		u = 1.0f - u;
+		v = 1.0f - v;
+	}
+	const Vector3 &p0 = surface.positions[indices[0]];
+	const Vector3 edge1 = surface.positions[indices[1]] - p0;
+	const Vector3 edge2 = surface.positions[indices[2]] - p0;
+	const Vector3 position = p0 + edge1 * u + edge2 * v;
+	const Vector3 normal = glm::normalize(glm::cross(edge1, edge2)) * surface.orientation;
+	const Vector3 to_emitter = position - p_position;
+	const float square = glm::dot(to_emitter, to_emitter);
+	const float distance = std::sqrt(square);
+	const float cosine = -glm::dot(normal, to_emitter) / distance; // > 0: its front is seen
+	if (!(std::abs(cosine) > 1e-6f) || !p_trace.material_of(surface_index).visible_from(cosine > 0.0f)) {
+		return sample;
+	}
+	const float offset = 1e-6f + 4e-6f * glm::length(position);
+	sample.position = position + normal * (cosine > 0.0f ? offset : -offset);
+	sample.direction = to_emitter / distance;
+	sample.radiance = p_trace.emission(surface_index, primitive, u, v) * p_trace.alpha(surface_index, primitive, u, v);
+	sample.pdf = area_pdfs[surface.first_emitter + primitive] * square / std::abs(cosine);
+	return sample;
+}
+
+// Godot's: (1 - (d / range)^4)^2 d^-decay, and the spot's rim.
+float LightSampler::attenuation(const Lamp &p_lamp, const Vector3 &p_to_lamp, float p_distance) const {
+	const Light &light = p_lamp.parameters;
+	const float ratio = p_distance / light.range_m;
+	const float window = std::max(1.0f - ratio * ratio * ratio * ratio, 0.0f);
+	if (window == 0.0f) {
+		return 0.0f;
+	}
+	const float near = std::max(p_distance, 1e-4f);
+	float value = window * window * (light.attenuation == 2.0f ? 1.0f / (near * near) : std::pow(near, -light.attenuation));
+	if (light.type == LightType::SPOT) {
+		const float cosine = -glm::dot(p_to_lamp, p_lamp.direction) / near;
+		if (cosine <= p_lamp.spot_cos) {
+			return 0.0f;
+		}
+		const float rim = std::max(1e-3f, (1.0f - cosine) / (1.0f - p_lamp.spot_cos));
+		value *= 1.0f - std::pow(rim, light.spot_attenuation);
+	}
+	return value;
+}
+
+// Unshadowed strength at the point, up to a common factor. Lamps below its horizon weigh nothing unless they have a size.
+float LightSampler::lamp_weight(const Lamp &p_lamp, const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect) const {
+	const Light &light = p_lamp.parameters;
+	float weight = p_lamp.weight;
+	if (p_indirect) {
+		weight = light.bake_mode == LightBakeMode::DISABLED ? 0.0f : weight * light.indirect_energy;
+	}
+	if (light.type == LightType::DIRECTIONAL) {
+		return p_lamp.sun_cos < 1.0f || glm::dot(p_normal, p_lamp.direction) < 0.0f ? weight : 0.0f;
+	}
+	const Vector3 to_lamp = p_lamp.position - p_position;
+	if (light.size_m <= 0.0f && glm::dot(p_normal, to_lamp) <= 0.0f) {
+		return 0.0f;
+	}
+	// A sized lamp is sampled at another point than its centre: widen range and cone so that no lit point has weight 0.
+	const float distance = std::max(glm::length(to_lamp) - light.size_m, 1e-4f);
+	const bool wide = light.size_m > 0.0f;
+	return wide ? weight * std::pow(distance, -light.attenuation) * (distance < light.range_m ? 1.0f : 0.0f) : weight * attenuation(p_lamp, to_lamp, distance);
+}
+
+bool LightSampler::sample_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, LampSample &r_sample) const {
+	// Weighted reservoir of one: a single pass, no memory.
+	const Lamp *chosen = nullptr;
+	float chosen_weight = 0, total = 0;
+	float random = r_random.next();
+	for (const Lamp &lamp : lamps) {
+		const float weight = lamp_weight(lamp, p_position, p_normal, p_indirect);
+		if (!(weight > 0.0f)) {
+			continue;
+		}
+		total += weight;
+		const float share = weight / total;
+		const bool take = random < share;
+		random = take ? random / share : (random - share) / (1.0f - share);
+		if (take) {
+			chosen = &lamp;
+			chosen_weight = weight;
+		}
+	}
+	if (!chosen) {
+		return false;
+	}
+	const Light &light = chosen->parameters;
+	const float u = 2.0f * PI * r_random.next();
+	const float v = r_random.next();
+	float strength = total / chosen_weight * (p_indirect ? light.indirect_energy : 1.0f);
+	if (light.type == LightType::DIRECTIONAL) {
+		const float cosine = 1.0f - v * (1.0f - chosen->sun_cos);
+		const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+		r_sample.direction = basis_around(-chosen->direction) * Vector3(std::cos(u) * sine, std::sin(u) * sine, cosine);
+		r_sample.distance_m = std::numeric_limits<float>::infinity();
+	} else {
+		Vector3 to_lamp = chosen->position - p_position;
+		if (light.size_m > 0.0f) {
+			// A disc of that radius that faces the point.
+			const Basis disc = basis_around(glm::normalize(to_lamp));
+			to_lamp += (disc[0] * std::cos(u) + disc[1] * std::sin(u)) * (light.size_m * std::sqrt(v));
+		}
+		r_sample.distance_m = glm::length(to_lamp);
+		r_sample.direction = to_lamp / std::max(r_sample.distance_m, 1e-9f);
+		strength *= attenuation(*chosen, to_lamp, r_sample.distance_m);
+	}
+	r_sample.power = chosen->color * strength;
+	r_sample.specular = light.specular;
+	r_sample.shadow_opacity = light.shadow_enabled ? light.shadow_opacity : 0.0f;
+	return true;
+}
+
+} // namespace lucent

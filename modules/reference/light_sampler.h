@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Chooses lights to connect to: emissive triangles by power, lamps by what they would do at the point.
+
+#include "modules/reference/random.h"
+#include "modules/reference/trace_scene.h"
+
+#include <vector>
+
+namespace lucent {
+
+// A point on an emissive triangle, seen from the shaded point.
+struct EmitterSample {
+	Vector3 position; // pushed off the emitter, on the side that faces the shaded point
+	Vector3 direction; // towards it, unit
+	Vector3 radiance; // with the emitter's own alpha
+	float pdf = 0; // per steradian; 0: no sample
+};
+
+struct LampSample {
+	Vector3 direction; // towards it, unit
+	float distance_m = 0; // infinity for directional lights
+	Vector3 power{ 0.0f }; // colour * energy * attenuation / probability: a Lambertian surface reflects albedo * cos * power
+	float specular = 1.0f;
+	float shadow_opacity = 0.0f; // 0: casts no shadow
+};
+
+class LightSampler {
+public:
+	LightSampler() = default;
+	// Sets first_emitter of r_trace's surfaces.
+	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace);
+
+	bool has_emitters() const { return !emitters.empty(); }
+	bool has_lamps() const { return !lamps.empty(); }
+	EmitterSample sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, Random &r_random) const;
+	// Density over area (1 / m^2) with which sample_emitter chooses points of this triangle.
+	float emitter_area_pdf(const TraceSurface &p_surface, uint32_t p_primitive) const {
+		return p_surface.first_emitter == UINT32_MAX ? 0.0f : area_pdfs[p_surface.first_emitter + p_primitive];
+	}
+	// False: no lamp reaches the point. p_indirect: after the first bounce, where bake_mode and indirect_energy count.
+	bool sample_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, LampSample &r_sample) const;
+
+private:
+	struct Emitter {
+		uint32_t surface;
+		uint32_t primitive;
+	};
+	struct Lamp {
+		Light parameters;
+		Vector3 position;
+		Vector3 direction; // that it shines along
+		Vector3 color; // times energy; negative for negative lamps
+		float weight = 0; // mean of |color|
+		float spot_cos = 0;
+		float sun_cos = 1; // cosine of the sun's angular radius
+	};
+	void add_emitters(TraceScene &r_trace, uint32_t p_surface, std::vector<double> &r_weights);
+	void add_lamp(const Light &p_light, const Transform3D &p_transform);
+	float attenuation(const Lamp &p_lamp, const Vector3 &p_to_lamp, float p_distance) const;
+	float lamp_weight(const Lamp &p_lamp, const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect) const;
+
+	std::vector<Emitter> emitters;
+	std::vector<float> emitter_cdf; // emitters + 1, ends at 1
+	std::vector<float> area_pdfs; // by first_emitter + primitive
+	std::vector<Lamp> lamps;
+};
+
+} // namespace lucent
