@@ -98,7 +98,7 @@ struct LightData {
 INTEROP_END
 INTEROP_SIZE(InstanceData, 104)
 INTEROP_SIZE(VertexAttributes, 48)
-INTEROP_SIZE(MaterialData, 236)
+INTEROP_SIZE(MaterialData, 232)
 INTEROP_SIZE(GiSurface, 20)
 INTEROP_SIZE(LightData, 92)
 #endif
