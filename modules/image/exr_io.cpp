@@ -81,7 +81,7 @@ Window data_window(const Imf::Header &p_header) {
 	if (width <= 0 || height <= 0 || width > MAX_IMAGE_SIDE_TEXELS || height > MAX_IMAGE_SIDE_TEXELS) {
 		throw std::runtime_error(fmt::format("{} x {} texels are more than the limit of {} a side", width, height, MAX_IMAGE_SIDE_TEXELS));
 	}
-	return {box.min.x, box.min.y, uint32_t(width), uint32_t(height)};
+	return { box.min.x, box.min.y, uint32_t(width), uint32_t(height) };
 }
 
 void read_part(Imf::MultiPartInputFile &p_file, int p_part, ExrImage &r_image) {
@@ -106,7 +106,7 @@ void read_part(Imf::MultiPartInputFile &p_file, int p_part, ExrImage &r_image) {
 		if ((r_image.channels.size() + 1) * texels > MAX_EXR_VALUES) {
 			throw std::runtime_error(fmt::format("more than the limit of {} values", MAX_EXR_VALUES));
 		}
-		r_image.channels.push_back({prefix + it.name(), std::vector<float>(texels)});
+		r_image.channels.push_back({ prefix + it.name(), std::vector<float>(texels) });
 	}
 	Imf::FrameBuffer frame_buffer;
 	size_t index = first;
@@ -164,7 +164,7 @@ Status write_exr(const std::string &p_path, uint32_t p_width, uint32_t p_height,
 	}
 	MemoryOutput output;
 	try {
-		Imf::Header header{int(p_width), int(p_height)};
+		Imf::Header header{ int(p_width), int(p_height) };
 		header.compression() = Imf::ZIP_COMPRESSION;
 		Imf::FrameBuffer frame_buffer;
 		for (const ExrLayer &layer : p_layers) {

@@ -93,7 +93,7 @@ Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_
 	const std::vector<float> *sources[4] = {};
 	const std::string prefix = exr.find("Y") && !exr.find("R") ? "!" : picture_prefix(exr);
 	if (prefix != "!") {
-		const char *names[] = {"R", "G", "B", "A"};
+		const char *names[] = { "R", "G", "B", "A" };
 		for (int c = 0; c < 4; c++) {
 			sources[c] = find_channel(exr, prefix + names[c]);
 		}
@@ -104,7 +104,7 @@ Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_
 	if (!sources[0]) {
 		return make_error("{}: expected the channels R, G and B, or Y; the first of its {} is '{}'", p_name, exr.channels.size(), exr.channels[0].name);
 	}
-	Image image{ImageFormat::RGBA32F, exr.width, exr.height, {}};
+	Image image{ ImageFormat::RGBA32F, exr.width, exr.height, {} };
 	const size_t count = size_t(exr.width) * exr.height;
 	image.texels.resize(count * 16);
 	for (size_t i = 0; i < count; i++) {

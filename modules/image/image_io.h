@@ -39,7 +39,7 @@ struct ExrLayer {
 Status write_exr(const std::string &p_path, uint32_t p_width, uint32_t p_height, std::span<const ExrLayer> p_layers);
 
 struct ExrChannel {
-	std::string name;          // in full: "direct.R"; channels of a named part of a multi-part file: "part.direct.R"
+	std::string name; // in full: "direct.R"; channels of a named part of a multi-part file: "part.direct.R"
 	std::vector<float> values; // width * height
 };
 

@@ -46,7 +46,7 @@ bool write_all(int p_fd, std::span<const std::byte> p_bytes) {
 }
 
 Status write_in_place(const std::string &p_path, std::span<const std::byte> p_bytes) {
-	FileDescriptor file{::open(p_path.c_str(), O_WRONLY | O_CLOEXEC)};
+	FileDescriptor file{ ::open(p_path.c_str(), O_WRONLY | O_CLOEXEC) };
 	if (file.fd < 0 || !write_all(file.fd, p_bytes)) {
 		return system_error(p_path, "write");
 	}
@@ -57,7 +57,7 @@ Status write_in_place(const std::string &p_path, std::span<const std::byte> p_by
 
 Result<std::vector<std::byte>> read_file(const std::string &p_path, uint64_t p_max_bytes) {
 	// O_NONBLOCK: opening a pipe without a writer would wait for ever.
-	FileDescriptor file{::open(p_path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+	FileDescriptor file{ ::open(p_path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK) };
 	struct stat status = {};
 	if (file.fd < 0 || ::fstat(file.fd, &status) != 0) {
 		return system_error(p_path, "read");
@@ -106,7 +106,7 @@ Status write_file(const std::string &p_path, std::span<const std::byte> p_bytes)
 	const std::string temporary = fmt::format("{}.partial-{}-{}", target, ::getpid(), counter++);
 	bool written = false;
 	{
-		FileDescriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+		FileDescriptor file{ ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) };
 		if (file.fd < 0) {
 			return system_error(p_path, "write");
 		}

@@ -26,7 +26,7 @@ struct TemporaryFolder {
 
 std::vector<std::byte> to_bytes(std::string_view p_text) {
 	const std::byte *data = reinterpret_cast<const std::byte *>(p_text.data());
-	return {data, data + p_text.size()};
+	return { data, data + p_text.size() };
 }
 
 float float_at(const Image &p_image, size_t p_texel, size_t p_channel) {
@@ -68,19 +68,19 @@ TEST_CASE("PNG: RGB and RGBA come back as they were written, twice the same byte
 
 TEST_CASE("EXR: layers come back exactly, the main one is the picture") {
 	const TemporaryFolder folder;
-	const std::vector<float> main = {0.1f, 2000.0f, -1.0f, 3e-8f, 5.0f, 6.0f};
-	const std::vector<float> direct = {1, 2, 3, 4, 5, 6};
-	const std::vector<float> depth = {10.5f, INFINITY};
-	const ExrLayer layers[] = {{"", {"R", "G", "B"}, main}, {"direct", {"R", "G", "B"}, direct}, {"depth", {"Z"}, depth}};
+	const std::vector<float> main = { 0.1f, 2000.0f, -1.0f, 3e-8f, 5.0f, 6.0f };
+	const std::vector<float> direct = { 1, 2, 3, 4, 5, 6 };
+	const std::vector<float> depth = { 10.5f, INFINITY };
+	const ExrLayer layers[] = { { "", { "R", "G", "B" }, main }, { "direct", { "R", "G", "B" }, direct }, { "depth", { "Z" }, depth } };
 	REQUIRE(write_exr(folder.path + "a.exr", 2, 1, layers).ok());
 	REQUIRE(write_exr(folder.path + "b.exr", 2, 1, layers).ok());
 	CHECK(read_file(folder.path + "a.exr").value() == read_file(folder.path + "b.exr").value());
 	const ExrImage exr = read_exr_layers(folder.path + "a.exr").take();
 	CHECK(exr.channels.size() == 7);
 	REQUIRE(exr.find("direct.G"));
-	CHECK(exr.find("direct.G")->values == std::vector<float>{2, 5});
+	CHECK(exr.find("direct.G")->values == std::vector<float>{ 2, 5 });
 	CHECK(exr.find("depth.Z")->values == depth);
-	CHECK(exr.find("R")->values == std::vector<float>{0.1f, 3e-8f});
+	CHECK(exr.find("R")->values == std::vector<float>{ 0.1f, 3e-8f });
 	const Image image = load_image(folder.path + "a.exr").take();
 	CHECK(image.format == ImageFormat::RGBA32F);
 	CHECK(float_at(image, 0, 1) == 2000.0f);
@@ -89,11 +89,11 @@ TEST_CASE("EXR: layers come back exactly, the main one is the picture") {
 
 TEST_CASE("EXR: Y is grey, a layered picture is found, other channels are refused by name") {
 	const TemporaryFolder folder;
-	const std::vector<float> one = {0.25f};
-	const std::vector<float> three = {1, 2, 3};
-	const ExrLayer grey[] = {{"", {"Y"}, one}};
-	const ExrLayer layered[] = {{"depth", {"Z"}, one}, {"View.Combined", {"R", "G", "B"}, three}};
-	const ExrLayer depth[] = {{"depth", {"Z"}, one}};
+	const std::vector<float> one = { 0.25f };
+	const std::vector<float> three = { 1, 2, 3 };
+	const ExrLayer grey[] = { { "", { "Y" }, one } };
+	const ExrLayer layered[] = { { "depth", { "Z" }, one }, { "View.Combined", { "R", "G", "B" }, three } };
+	const ExrLayer depth[] = { { "depth", { "Z" }, one } };
 	REQUIRE(write_exr(folder.path + "grey.exr", 1, 1, grey).ok());
 	REQUIRE(write_exr(folder.path + "layered.exr", 1, 1, layered).ok());
 	REQUIRE(write_exr(folder.path + "depth.exr", 1, 1, depth).ok());
@@ -129,9 +129,9 @@ TEST_CASE("A broken image gives one error that names the file") {
 	}
 	REQUIRE(write_png(folder.path + "a.png", 64, 64, 4, values).ok());
 	const std::vector<float> floats(64 * 64 * 3, 0.5f);
-	const ExrLayer layers[] = {{"", {"R", "G", "B"}, floats}};
+	const ExrLayer layers[] = { { "", { "R", "G", "B" }, floats } };
 	REQUIRE(write_exr(folder.path + "a.exr", 64, 64, layers).ok());
-	for (const char *name : {"a.png", "a.exr"}) {
+	for (const char *name : { "a.png", "a.exr" }) {
 		const std::vector<std::byte> whole = read_file(folder.path + name).take();
 		REQUIRE(load_image_from_memory(whole, name).ok());
 		for (size_t size = 4; size < whole.size() - 16; size += 1 + size / 7) {
@@ -147,17 +147,17 @@ TEST_CASE("An image of 100000 x 100000 texels is refused before it is allocated"
 	const std::vector<uint8_t> grey(1);
 	REQUIRE(write_png(folder.path + "a.png", 1, 1, 1, grey).ok());
 	std::vector<std::byte> png = read_file(folder.path + "a.png").take();
-	const uint8_t side[] = {0, 1, 0x86, 0xa0, 0, 1, 0x86, 0xa0};
+	const uint8_t side[] = { 0, 1, 0x86, 0xa0, 0, 1, 0x86, 0xa0 };
 	std::memcpy(png.data() + 16, side, 8);
 	CHECK(!load_image_from_memory(png, "a.png").ok());
 
 	const std::vector<float> one(1);
-	const ExrLayer layers[] = {{"", {"Y"}, one}};
+	const ExrLayer layers[] = { { "", { "Y" }, one } };
 	REQUIRE(write_exr(folder.path + "a.exr", 1, 1, layers).ok());
 	std::vector<std::byte> exr = read_file(folder.path + "a.exr").take();
 	const std::string_view text(reinterpret_cast<const char *>(exr.data()), exr.size());
 	const size_t box = text.find("box2i", text.find("dataWindow")) + 6 + 4 + 8;
-	const int32_t corner[] = {99999, 99999};
+	const int32_t corner[] = { 99999, 99999 };
 	std::memcpy(exr.data() + box, corner, 8);
 	CHECK(!load_image_from_memory(exr, "a.exr").ok());
 
