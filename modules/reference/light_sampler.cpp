@@ -181,13 +181,13 @@ float LightSampler::lamp_weight(const Lamp &p_lamp, const Vector3 &p_position, c
 	return wide ? weight * std::pow(distance, -light.attenuation) * (distance < light.range_m ? 1.0f : 0.0f) : weight * attenuation(p_lamp, to_lamp, distance);
 }
 
-bool LightSampler::sample_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, LampSample &r_sample) const {
+uint32_t LightSampler::choose_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, float &r_probability) const {
 	// Weighted reservoir of one: a single pass, no memory.
-	const Lamp *chosen = nullptr;
+	uint32_t chosen = UINT32_MAX;
 	float chosen_weight = 0, total = 0;
 	float random = r_random.next();
-	for (const Lamp &lamp : lamps) {
-		const float weight = lamp_weight(lamp, p_position, p_normal, p_indirect);
+	for (uint32_t i = 0; i < lamps.size(); i++) {
+		const float weight = lamp_weight(lamps[i], p_position, p_normal, p_indirect);
 		if (!(weight > 0.0f)) {
 			continue;
 		}
@@ -196,37 +196,45 @@ bool LightSampler::sample_lamp(const Vector3 &p_position, const Vector3 &p_norma
 		const bool take = random < share;
 		random = take ? random / share : (random - share) / (1.0f - share);
 		if (take) {
-			chosen = &lamp;
+			chosen = i;
 			chosen_weight = weight;
 		}
 	}
-	if (!chosen) {
-		return false;
+	r_probability = chosen_weight / std::max(total, std::numeric_limits<float>::min());
+	return chosen;
+}
+
+LampSample LightSampler::sample_lamp(uint32_t p_lamp, const Vector3 &p_position, bool p_indirect, Random &r_random) const {
+	const Lamp &lamp = lamps[p_lamp];
+	const Light &light = lamp.parameters;
+	LampSample sample;
+	sample.specular = light.specular;
+	sample.shadow_opacity = light.shadow_enabled ? light.shadow_opacity : 0.0f;
+	float strength = 1.0f;
+	if (p_indirect) {
+		strength = light.bake_mode == LightBakeMode::DISABLED ? 0.0f : light.indirect_energy;
 	}
-	const Light &light = chosen->parameters;
-	const float u = 2.0f * PI * r_random.next();
-	const float v = r_random.next();
-	float strength = total / chosen_weight * (p_indirect ? light.indirect_energy : 1.0f);
+	const bool point = light.type == LightType::DIRECTIONAL ? lamp.sun_cos == 1.0f : light.size_m <= 0.0f;
+	const float u = point ? 0.0f : 2.0f * PI * r_random.next();
+	const float v = point ? 0.0f : r_random.next();
 	if (light.type == LightType::DIRECTIONAL) {
-		const float cosine = 1.0f - v * (1.0f - chosen->sun_cos);
+		const float cosine = 1.0f - v * (1.0f - lamp.sun_cos);
 		const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-		r_sample.direction = basis_around(-chosen->direction) * Vector3(std::cos(u) * sine, std::sin(u) * sine, cosine);
-		r_sample.distance_m = std::numeric_limits<float>::infinity();
+		sample.direction = point ? -lamp.direction : basis_around(-lamp.direction) * Vector3(std::cos(u) * sine, std::sin(u) * sine, cosine);
+		sample.distance_m = std::numeric_limits<float>::infinity();
 	} else {
-		Vector3 to_lamp = chosen->position - p_position;
-		if (light.size_m > 0.0f) {
+		Vector3 to_lamp = lamp.position - p_position;
+		if (!point) {
 			// A disc of that radius that faces the point.
 			const Basis disc = basis_around(glm::normalize(to_lamp));
 			to_lamp += (disc[0] * std::cos(u) + disc[1] * std::sin(u)) * (light.size_m * std::sqrt(v));
 		}
-		r_sample.distance_m = glm::length(to_lamp);
-		r_sample.direction = to_lamp / std::max(r_sample.distance_m, 1e-9f);
-		strength *= attenuation(*chosen, to_lamp, r_sample.distance_m);
+		sample.distance_m = glm::length(to_lamp);
+		sample.direction = to_lamp / std::max(sample.distance_m, 1e-9f);
+		strength *= attenuation(lamp, to_lamp, sample.distance_m);
 	}
-	r_sample.power = chosen->color * strength;
-	r_sample.specular = light.specular;
-	r_sample.shadow_opacity = light.shadow_enabled ? light.shadow_opacity : 0.0f;
-	return true;
+	sample.power = lamp.color * strength;
+	return sample;
 }
 
 } // namespace lucent

@@ -20,7 +20,7 @@ struct EmitterSample {
 struct LampSample {
 	Vector3 direction; // towards it, unit
 	float distance_m = 0; // infinity for directional lights
-	Vector3 power{ 0.0f }; // colour * energy * attenuation / probability: a Lambertian surface reflects albedo * cos * power
+	Vector3 power{ 0.0f }; // colour * energy * attenuation: a Lambertian surface reflects albedo * cos * power
 	float specular = 1.0f;
 	float shadow_opacity = 0.0f; // 0: casts no shadow
 };
@@ -32,14 +32,16 @@ public:
 	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace);
 
 	bool has_emitters() const { return !emitters.empty(); }
-	bool has_lamps() const { return !lamps.empty(); }
 	EmitterSample sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, Random &r_random) const;
 	// Density over area (1 / m^2) with which sample_emitter chooses points of this triangle.
 	float emitter_area_pdf(const TraceSurface &p_surface, uint32_t p_primitive) const {
 		return p_surface.first_emitter == UINT32_MAX ? 0.0f : area_pdfs[p_surface.first_emitter + p_primitive];
 	}
-	// False: no lamp reaches the point. p_indirect: after the first bounce, where bake_mode and indirect_energy count.
-	bool sample_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, LampSample &r_sample) const;
+	uint32_t lamp_count() const { return uint32_t(lamps.size()); }
+	// Chooses a lamp by what it would do unshadowed; UINT32_MAX: none reaches the point. p_indirect: after the first bounce, where
+	// bake_mode and indirect_energy count.
+	uint32_t choose_lamp(const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect, Random &r_random, float &r_probability) const;
+	LampSample sample_lamp(uint32_t p_lamp, const Vector3 &p_position, bool p_indirect, Random &r_random) const;
 
 private:
 	struct Emitter {

@@ -84,7 +84,7 @@ PathSample PathIntegrator::trace(float p_x, float p_y, Random &r_random) {
 		vertex.specular_share = material.lambertian ? 0.0f : brdf::specular_share(vertex.point.lobes, vertex.point.normal, vertex.view);
 		add_emitter_light(path, vertex, r_random);
 		add_sky_light(path, vertex, r_random);
-		add_lamp_light(path, vertex, r_random);
+		add_lamps_light(path, vertex, r_random);
 		if (!sample_direction(path, vertex, r_random) || !survive(path, r_random)) {
 			break;
 		}
@@ -183,23 +183,38 @@ void PathIntegrator::add_sky_light(Path &r_path, const Vertex &p_vertex, Random 
 	r_path.result.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
 }
 
-void PathIntegrator::add_lamp_light(Path &r_path, const Vertex &p_vertex, Random &r_random) {
-	const SurfacePoint &point = p_vertex.point;
-	LampSample sample;
-	if (!world.lights.has_lamps() || !world.lights.sample_lamp(point.position, point.normal, r_path.bounce > 0, r_random, sample)) {
+// At the first surface each of a few lamps has its own ray: the picture's sharpest edges are their shadows.
+void PathIntegrator::add_lamps_light(Path &r_path, const Vertex &p_vertex, Random &r_random) {
+	constexpr uint32_t MAX_SEPARATE = 8;
+	const uint32_t count = world.lights.lamp_count();
+	const Vector3 &position = p_vertex.point.position;
+	const bool indirect = r_path.bounce > 0;
+	if (!indirect && count <= MAX_SEPARATE) {
+		for (uint32_t lamp = 0; lamp < count; lamp++) {
+			add_lamp_light(r_path, p_vertex, world.lights.sample_lamp(lamp, position, false, r_random), 1.0f);
+		}
 		return;
 	}
-	const float cosine = glm::dot(point.normal, sample.direction);
-	if (cosine <= 0.0f || glm::dot(point.geometric_normal, sample.direction) <= 0.0f || is_black(sample.power)) {
+	float probability = 1.0f;
+	const uint32_t lamp = count > 0 ? world.lights.choose_lamp(position, p_vertex.point.normal, indirect, r_random, probability) : UINT32_MAX;
+	if (lamp != UINT32_MAX) {
+		add_lamp_light(r_path, p_vertex, world.lights.sample_lamp(lamp, position, indirect, r_random), probability);
+	}
+}
+
+void PathIntegrator::add_lamp_light(Path &r_path, const Vertex &p_vertex, const LampSample &p_sample, float p_probability) {
+	const SurfacePoint &point = p_vertex.point;
+	const float cosine = glm::dot(point.normal, p_sample.direction);
+	if (cosine <= 0.0f || glm::dot(point.geometric_normal, p_sample.direction) <= 0.0f || is_black(p_sample.power)) {
 		return;
 	}
 	Vector3 value = brdf::brdf_diffuse(point.lobes);
 	if (!p_vertex.lambertian) {
-		value += brdf::brdf_specular(point.lobes, point.normal, p_vertex.view, sample.direction) * sample.specular;
+		value += brdf::brdf_specular(point.lobes, point.normal, p_vertex.view, p_sample.direction) * p_sample.specular;
 	}
-	value *= sample.power * (PI * cosine);
-	if (sample.shadow_opacity > 0.0f) {
-		value *= glm::mix(Vector3(1.0f), visibility(p_vertex, sample.direction, sample.distance_m, RAY_LAMP_SHADOW), sample.shadow_opacity);
+	value *= p_sample.power * (PI * cosine / p_probability);
+	if (p_sample.shadow_opacity > 0.0f) {
+		value *= glm::mix(Vector3(1.0f), visibility(p_vertex, p_sample.direction, p_sample.distance_m, RAY_LAMP_SHADOW), p_sample.shadow_opacity);
 	}
 	value *= r_path.throughput;
 	r_path.result.radiance += value;

@@ -246,10 +246,13 @@ Result<PathTracerThroughput> PathTracer::measure_throughput(const PathTracerSett
 	const std::unique_ptr<Impl::Film> film = impl->make_film(p_settings);
 	film->recordings.resize(threads);
 	film->recording_limit = MAX_RECORDED / threads;
-	impl->trace_pass(*film, 1);
 	PathTracerThroughput result;
-	for (const std::vector<Ray> &recording : film->recordings) {
-		result.recorded_rays += recording.size();
+	for (uint32_t sample = 0; sample < p_settings.spp && result.recorded_rays < MAX_RECORDED; sample++) {
+		impl->trace_pass(*film, 1);
+		result.recorded_rays = 0;
+		for (const std::vector<Ray> &recording : film->recordings) {
+			result.recorded_rays += recording.size();
+		}
 	}
 	result.path_tracer_mrays_s = double(timed.value().rays) / timed.value().seconds * 1e-6;
 	// Repeated until it has run for as long as a steady figure needs.

@@ -85,26 +85,32 @@ TraceSky::TraceSky(const RenderScene &p_scene, ScenarioRid p_scenario, const Cam
 	});
 }
 
-// Weights are mean radiance times the row's solid angle, with a floor so that no direction that shines is impossible.
+// A texel's weight is its square's mean radiance, bilinear reading included, times the row's solid angle, with a floor so that no
+// direction that shines is impossible.
 void TraceSky::build_panorama() {
 	panorama_ref.wrap_v = TextureWrap::CLAMP;
 	width = panorama.image->width;
 	height = panorama.image->height;
 	row_cdf.resize(height + 1);
 	texel_cdf.resize(size_t(height) * (width + 1));
+	std::vector<float> values(size_t(width) * height);
+	float brightest = 0;
+	for (uint32_t i = 0; i < values.size(); i++) {
+		values[i] = std::max(mean(Vector3(read_texel(panorama, i % width, i / width))), 0.0f);
+		brightest = std::max(brightest, values[i]);
+	}
+	// The mean of linear interpolation over a texel: 1, 6, 1 eighths.
+	const auto row_mean = [&](uint32_t p_x, uint32_t p_y) {
+		const float *row = values.data() + size_t(p_y) * width;
+		return 0.125f * (row[(p_x + width - 1) % width] + 6.0f * row[p_x] + row[(p_x + 1) % width]);
+	};
 	std::vector<double> weights(width);
 	std::vector<double> rows(height);
-	double brightest = 0;
-	for (uint32_t y = 0; y < height; y++) {
-		for (uint32_t x = 0; x < width; x++) {
-			brightest = std::max(brightest, double(mean(Vector3(read_texel(panorama, x, y)))));
-		}
-	}
 	for (uint32_t y = 0; y < height; y++) {
 		const double sine = std::sin(double(PI) * (y + 0.5) / height);
 		for (uint32_t x = 0; x < width; x++) {
-			const float value = mean(Vector3(read_texel(panorama, x, y)));
-			weights[x] = (std::max(value, 0.0f) + 1e-6 * brightest) * sine;
+			const float value = 0.125f * (row_mean(x, y > 0 ? y - 1 : 0) + 6.0f * row_mean(x, y) + row_mean(x, std::min(y + 1, height - 1)));
+			weights[x] = (value + 1e-6 * brightest) * sine;
 		}
 		rows[y] = make_cdf(weights.data(), width, texel_cdf.data() + size_t(y) * (width + 1));
 	}
