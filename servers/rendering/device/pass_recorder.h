@@ -26,11 +26,6 @@ struct TextureView {
 	uint32_t layer = ALL;
 };
 
-enum class LoadOp : uint8_t { LOAD, CLEAR, DONT_CARE };
-enum class CullMode : uint8_t { NONE, FRONT, BACK };
-enum class CompareOp : uint8_t { NEVER, LESS, EQUAL, LESS_OR_EQUAL, GREATER, GREATER_OR_EQUAL, ALWAYS };
-enum class BlendMode : uint8_t { NONE, MIX, ADD, SUB, MUL, PREMULTIPLIED };
-
 // Fixed state of a draw; the pipeline is found or made from it, the shaders and the pass's target formats. Front faces
 // are counter-clockwise in world space (the viewport's y is flipped by the projection, not by a negative viewport).
 // Vertices are pulled from storage buffers by gl_VertexIndex: there are no vertex attributes.
@@ -110,6 +105,8 @@ public:
 private:
 	friend class PassRecorder;
 	ComputePass(PassRecorder &p_recorder, std::string p_name, Shader p_shader);
+	template <typename Dispatch>
+	void record(Dispatch &&p_dispatch, BufferHandle p_arguments);
 	PassRecorder &recorder;
 	std::string name;
 	Shader shader;
@@ -137,6 +134,7 @@ public:
 
 private:
 	friend class PassRecorder;
+	friend struct RenderPassRecording;
 	RenderPass(PassRecorder &p_recorder, std::string p_name);
 	struct Target {
 		TextureView view;

@@ -2,6 +2,7 @@
 #pragma once
 // The thin device: resources, uploads, read-back, frames. Its one user-facing way to run GPU work is the PassRecorder.
 
+#include "servers/rendering/device/gpu_profiler.h"
 #include "servers/rendering/device/pass_recorder.h"
 #include "servers/rendering/device/rendering_device_driver.h"
 #include "servers/rendering/device/resource_types.h"
@@ -20,11 +21,6 @@ struct SetBinding {
 	SamplerHandle sampler;
 	BufferHandle buffer;
 	bool buffer_is_uniform = false;
-};
-
-struct PassTiming {
-	std::string name;
-	double gpu_ms = 0.0;
 };
 
 struct MemoryReport {
@@ -86,13 +82,14 @@ public:
 
 	RenderingDeviceDriver &driver();
 
+	struct Impl; // rendering_device_impl.h
+
 private:
 	friend class PassRecorder;
 	friend class ComputePass;
 	friend class RenderPass;
 	template <typename H>
 	friend class Owned;
-	struct Impl;
 	explicit RenderingDevice(std::unique_ptr<Impl> p_impl);
 	std::unique_ptr<Impl> impl;
 	void free_handle(TextureHandle p_texture);

@@ -31,7 +31,10 @@ enum class Format : uint8_t {
 	RGB10A2_UNORM,
 	D32_FLOAT,
 };
+enum class FormatKind : uint8_t { UNORM, SRGB, UINT, FLOAT, DEPTH };
 uint32_t format_size_bytes(Format p_format); // of one texel
+FormatKind format_kind(Format p_format);
+const char *format_name(Format p_format); // "rgba16_float"
 
 enum class TextureType : uint8_t { TEXTURE_2D, TEXTURE_2D_ARRAY, TEXTURE_3D, TEXTURE_CUBE };
 
@@ -53,6 +56,14 @@ struct TextureDesc {
 	uint32_t mips = 1;
 	uint32_t usage = TEXTURE_SAMPLED; // TextureUsage bits
 	std::string name; // for debuggers and --stats: "sdfgi.cascade2.sdf"
+
+	uint32_t layer_count() const { return type == TextureType::TEXTURE_CUBE ? 6 : (type == TextureType::TEXTURE_2D_ARRAY ? layers : 1); }
+	glm::uvec3 mip_size(uint32_t p_mip) const { return glm::max(glm::uvec3(width, height, type == TextureType::TEXTURE_3D ? depth : 1) >> p_mip, glm::uvec3(1)); }
+	// Of one mip of one layer, tightly packed.
+	uint64_t mip_size_bytes(uint32_t p_mip) const {
+		const glm::uvec3 size = mip_size(p_mip);
+		return uint64_t(size.x) * size.y * size.z * format_size_bytes(format);
+	}
 };
 
 enum BufferUsage : uint32_t {
@@ -68,6 +79,11 @@ struct BufferDesc {
 	uint32_t usage = BUFFER_STORAGE; // BufferUsage bits
 	std::string name;
 };
+
+enum class LoadOp : uint8_t { LOAD, CLEAR, DONT_CARE };
+enum class CullMode : uint8_t { NONE, FRONT, BACK };
+enum class CompareOp : uint8_t { NEVER, LESS, EQUAL, LESS_OR_EQUAL, GREATER, GREATER_OR_EQUAL, ALWAYS };
+enum class BlendMode : uint8_t { NONE, MIX, ADD, SUB, MUL, PREMULTIPLIED };
 
 enum class Filter : uint8_t { NEAREST, LINEAR };
 enum class AddressMode : uint8_t { REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE, CLAMP_TO_BORDER };
