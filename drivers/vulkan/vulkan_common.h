@@ -7,9 +7,9 @@
 #include <volk.h>
 
 // A lost device or a call that cannot fail in a correct program.
-#define VK_CHECK(m_call)                                                                        \
-	do {                                                                                        \
-		const VkResult vk_check_result = (m_call);                                              \
+#define VK_CHECK(m_call) \
+	do { \
+		const VkResult vk_check_result = (m_call); \
 		INVARIANT(vk_check_result == VK_SUCCESS, "{}", ::lucent::result_name(vk_check_result)); \
 	} while (false)
 

@@ -30,7 +30,8 @@ struct MemoryAllocation {
 
 class VulkanMemory {
 public:
-	explicit VulkanMemory(const VulkanContext &p_context) : context(p_context) {}
+	explicit VulkanMemory(const VulkanContext &p_context) :
+			context(p_context) {}
 	VulkanMemory(const VulkanMemory &) = delete;
 	VulkanMemory &operator=(const VulkanMemory &) = delete;
 	~VulkanMemory();

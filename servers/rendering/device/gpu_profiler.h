@@ -15,7 +15,8 @@ struct PassTiming {
 
 class GpuProfiler {
 public:
-	explicit GpuProfiler(RenderingDeviceDriver &p_driver) : driver(p_driver) {}
+	explicit GpuProfiler(RenderingDeviceDriver &p_driver) :
+			driver(p_driver) {}
 	void begin_frame(uint32_t p_slot);
 	void end_pass(uint32_t p_slot, const std::string &p_name);
 	// The slot's commands have finished.

@@ -63,7 +63,16 @@ struct DrawCommand {
 	}
 };
 
-enum class PassBindingKind : uint8_t { READ_TEXTURE, WRITE_TEXTURE, READ_WRITE_TEXTURE, READ_BUFFER, WRITE_BUFFER, READ_WRITE_BUFFER, UNIFORM_BUFFER, SAMPLER };
+enum class PassBindingKind : uint8_t {
+	READ_TEXTURE,
+	WRITE_TEXTURE,
+	READ_WRITE_TEXTURE,
+	READ_BUFFER,
+	WRITE_BUFFER,
+	READ_WRITE_BUFFER,
+	UNIFORM_BUFFER,
+	SAMPLER
+};
 struct PassBinding {
 	uint32_t binding = 0;
 	PassBindingKind kind = PassBindingKind::READ_TEXTURE;
@@ -178,7 +187,8 @@ private:
 	friend class ComputePass;
 	friend class RenderPass;
 	friend class RenderingDevice;
-	explicit PassRecorder(RenderingDevice &p_device) : device(p_device) {}
+	explicit PassRecorder(RenderingDevice &p_device) :
+			device(p_device) {}
 	RenderingDevice &device;
 	std::vector<PassInfo> passes;
 	std::function<void(const PassInfo &)> hook;

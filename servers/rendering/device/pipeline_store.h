@@ -24,7 +24,8 @@ public:
 		Format depth = Format::UNDEFINED;
 	};
 
-	PipelineStore(RenderingDeviceDriver &p_driver, ShaderLibrary &p_shaders) : driver(p_driver), shaders(p_shaders), compute(size_t(Shader::COUNT)) {}
+	PipelineStore(RenderingDeviceDriver &p_driver, ShaderLibrary &p_shaders) :
+			driver(p_driver), shaders(p_shaders), compute(size_t(Shader::COUNT)) {}
 	~PipelineStore();
 	PipelineStore(const PipelineStore &) = delete;
 	PipelineStore &operator=(const PipelineStore &) = delete;

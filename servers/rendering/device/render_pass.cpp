@@ -6,7 +6,8 @@
 
 namespace lucent {
 
-RenderPass::RenderPass(PassRecorder &p_recorder, std::string p_name) : recorder(p_recorder), name(std::move(p_name)) {
+RenderPass::RenderPass(PassRecorder &p_recorder, std::string p_name) :
+		recorder(p_recorder), name(std::move(p_name)) {
 	bindings.reserve(12);
 }
 

@@ -40,7 +40,8 @@ Result<std::unique_ptr<RenderingDevice>> RenderingDevice::create(std::unique_ptr
 	return device;
 }
 
-RenderingDevice::RenderingDevice(std::unique_ptr<Impl> p_impl) : impl(std::move(p_impl)) {}
+RenderingDevice::RenderingDevice(std::unique_ptr<Impl> p_impl) :
+		impl(std::move(p_impl)) {}
 
 RenderingDevice::~RenderingDevice() = default;
 

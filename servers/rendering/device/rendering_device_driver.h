@@ -12,7 +12,13 @@
 
 namespace lucent {
 
-enum class DeviceType : uint8_t { DISCRETE, INTEGRATED, VIRTUAL, CPU, OTHER };
+enum class DeviceType : uint8_t {
+	DISCRETE,
+	INTEGRATED,
+	VIRTUAL,
+	CPU,
+	OTHER
+};
 
 struct DeviceInfo {
 	std::string name;
@@ -43,7 +49,11 @@ using DriverSetLayout = DriverId<struct DriverSetLayoutTag>;
 using DriverSet = DriverId<struct DriverSetTag>;
 using DriverPipeline = DriverId<struct DriverPipelineTag>;
 
-enum class MemoryKind : uint8_t { DEVICE, UPLOAD, READ_BACK };
+enum class MemoryKind : uint8_t {
+	DEVICE,
+	UPLOAD,
+	READ_BACK
+};
 
 // How commands touch a resource; bits combine. Stages are implied: GRAPHICS is vertex and fragment.
 enum Access : uint32_t {
@@ -66,7 +76,16 @@ enum Access : uint32_t {
 };
 constexpr uint32_t ACCESS_ALL_WRITES = ACCESS_COMPUTE_WRITE | ACCESS_COLOR_WRITE | ACCESS_DEPTH_WRITE | ACCESS_COPY_WRITE;
 
-enum class TextureLayout : uint8_t { UNDEFINED, GENERAL, SHADER_READ, COLOR_TARGET, DEPTH_TARGET, DEPTH_READ, COPY_SOURCE, COPY_TARGET };
+enum class TextureLayout : uint8_t {
+	UNDEFINED,
+	GENERAL,
+	SHADER_READ,
+	COLOR_TARGET,
+	DEPTH_TARGET,
+	DEPTH_READ,
+	COPY_SOURCE,
+	COPY_TARGET
+};
 
 struct TextureRange {
 	uint32_t first_mip = 0;
@@ -87,8 +106,21 @@ struct Barrier {
 	bool operator==(const Barrier &) const = default;
 };
 
-enum class DescriptorKind : uint8_t { NONE, SAMPLED_TEXTURE, STORAGE_TEXTURE, STORAGE_BUFFER, UNIFORM_BUFFER, SAMPLER, TEXTURE_WITH_SAMPLER };
-enum class ViewShape : uint8_t { D2, D2_ARRAY, D3, CUBE };
+enum class DescriptorKind : uint8_t {
+	NONE,
+	SAMPLED_TEXTURE,
+	STORAGE_TEXTURE,
+	STORAGE_BUFFER,
+	UNIFORM_BUFFER,
+	SAMPLER,
+	TEXTURE_WITH_SAMPLER
+};
+enum class ViewShape : uint8_t {
+	D2,
+	D2_ARRAY,
+	D3,
+	CUBE
+};
 
 struct DriverBinding {
 	uint32_t binding = 0;

@@ -17,7 +17,8 @@ struct AccessState {
 class TextureState {
 public:
 	TextureState() = default;
-	TextureState(uint32_t p_mips, uint32_t p_layers) : mips(p_mips), layers(p_layers), states(1) {}
+	TextureState(uint32_t p_mips, uint32_t p_layers) :
+			mips(p_mips), layers(p_layers), states(1) {}
 	TextureRange whole() const { return { 0, mips, 0, layers }; }
 	const AccessState &at(uint32_t p_mip, uint32_t p_layer) const { return states.size() == 1 ? states[0] : states[p_layer * mips + p_mip]; }
 

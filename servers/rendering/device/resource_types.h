@@ -31,12 +31,23 @@ enum class Format : uint8_t {
 	RGB10A2_UNORM,
 	D32_FLOAT,
 };
-enum class FormatKind : uint8_t { UNORM, SRGB, UINT, FLOAT, DEPTH };
+enum class FormatKind : uint8_t {
+	UNORM,
+	SRGB,
+	UINT,
+	FLOAT,
+	DEPTH
+};
 uint32_t format_size_bytes(Format p_format); // of one texel
 FormatKind format_kind(Format p_format);
 const char *format_name(Format p_format); // "rgba16_float"
 
-enum class TextureType : uint8_t { TEXTURE_2D, TEXTURE_2D_ARRAY, TEXTURE_3D, TEXTURE_CUBE };
+enum class TextureType : uint8_t {
+	TEXTURE_2D,
+	TEXTURE_2D_ARRAY,
+	TEXTURE_3D,
+	TEXTURE_CUBE
+};
 
 enum TextureUsage : uint32_t {
 	TEXTURE_SAMPLED = 1,
@@ -80,13 +91,44 @@ struct BufferDesc {
 	std::string name;
 };
 
-enum class LoadOp : uint8_t { LOAD, CLEAR, DONT_CARE };
-enum class CullMode : uint8_t { NONE, FRONT, BACK };
-enum class CompareOp : uint8_t { NEVER, LESS, EQUAL, LESS_OR_EQUAL, GREATER, GREATER_OR_EQUAL, ALWAYS };
-enum class BlendMode : uint8_t { NONE, MIX, ADD, SUB, MUL, PREMULTIPLIED };
+enum class LoadOp : uint8_t {
+	LOAD,
+	CLEAR,
+	DONT_CARE
+};
+enum class CullMode : uint8_t {
+	NONE,
+	FRONT,
+	BACK
+};
+enum class CompareOp : uint8_t {
+	NEVER,
+	LESS,
+	EQUAL,
+	LESS_OR_EQUAL,
+	GREATER,
+	GREATER_OR_EQUAL,
+	ALWAYS
+};
+enum class BlendMode : uint8_t {
+	NONE,
+	MIX,
+	ADD,
+	SUB,
+	MUL,
+	PREMULTIPLIED
+};
 
-enum class Filter : uint8_t { NEAREST, LINEAR };
-enum class AddressMode : uint8_t { REPEAT, MIRRORED_REPEAT, CLAMP_TO_EDGE, CLAMP_TO_BORDER };
+enum class Filter : uint8_t {
+	NEAREST,
+	LINEAR
+};
+enum class AddressMode : uint8_t {
+	REPEAT,
+	MIRRORED_REPEAT,
+	CLAMP_TO_EDGE,
+	CLAMP_TO_BORDER
+};
 
 struct SamplerDesc {
 	Filter mag_filter = Filter::LINEAR;
@@ -113,7 +155,8 @@ template <typename Handle>
 class Owned {
 public:
 	Owned() = default;
-	Owned(RenderingDevice *p_device, Handle p_handle) : device(p_device), owned_handle(p_handle) {}
+	Owned(RenderingDevice *p_device, Handle p_handle) :
+			device(p_device), owned_handle(p_handle) {}
 	Owned(Owned &&p_other) noexcept { swap(p_other); }
 	Owned &operator=(Owned &&p_other) noexcept {
 		if (this != &p_other) {

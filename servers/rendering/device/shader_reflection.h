@@ -9,8 +9,16 @@
 
 namespace lucent {
 
-enum class ShaderStage : uint8_t { COMPUTE, VERTEX, FRAGMENT };
-enum class SampledKind : uint8_t { FLOAT, UINT, INT };
+enum class ShaderStage : uint8_t {
+	COMPUTE,
+	VERTEX,
+	FRAGMENT
+};
+enum class SampledKind : uint8_t {
+	FLOAT,
+	UINT,
+	INT
+};
 
 struct ReflectedBinding {
 	uint32_t set = 0;

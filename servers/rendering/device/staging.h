@@ -16,7 +16,8 @@ struct StagingRange {
 
 class StagingMemory {
 public:
-	explicit StagingMemory(RenderingDeviceDriver &p_driver) : driver(p_driver) {}
+	explicit StagingMemory(RenderingDeviceDriver &p_driver) :
+			driver(p_driver) {}
 	~StagingMemory();
 	StagingMemory(const StagingMemory &) = delete;
 	StagingMemory &operator=(const StagingMemory &) = delete;
