@@ -37,6 +37,7 @@ public:
 	bool read_properties(std::vector<TscnProperty> &r_properties);
 
 	bool fail(const std::string &p_message) { return tokens.fail(p_message); }
+	bool failed() const { return tokens.failed(); }
 	const Error &error() const { return tokens.error(); }
 	int line() const { return tokens.line(); }
 

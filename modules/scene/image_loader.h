@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace lucent::scene {
+
+// Makes ResourceLoader read pictures (.png, .jpg, .jpeg, .hdr, .exr) into ImageTextures.
+void register_image_loaders();
+
+} // namespace lucent::scene
