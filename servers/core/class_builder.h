@@ -22,13 +22,15 @@ struct EnumEntry {
 	int64_t value;
 
 	template <typename T>
-	EnumEntry(const char *p_name, T p_value) : name(p_name), value(int64_t(p_value)) {}
+	EnumEntry(const char *p_name, T p_value) :
+			name(p_name), value(int64_t(p_value)) {}
 };
 
 template <typename T>
 class ClassBuilder {
 public:
-	explicit ClassBuilder(ClassInfo &r_info) : info(r_info), documentation(&r_info.documentation) {}
+	explicit ClassBuilder(ClassInfo &r_info) :
+			info(r_info), documentation(&r_info.documentation) {}
 
 	ClassBuilder &doc(const char *p_text) {
 		*documentation = p_text;
@@ -187,7 +189,7 @@ private:
 		size_t index = 0;
 		((method.arguments.push_back({ names[index], type_of<std::decay_t<Arguments>>(), class_name_of<std::decay_t<Arguments>>() }), index++), ...);
 		method.call = [p_method, full_name = info.name + "." + p_name](Object &r_object, const Array &p_arguments) -> Result<Variant> {
-			return [&]<size_t... I>(std::index_sequence<I...>) -> Result<Variant> {
+			return [&]<size_t... I>(std::index_sequence<I...>)->Result<Variant> {
 				const std::tuple<std::optional<std::decay_t<Arguments>>...> values = { variant_cast<std::decay_t<Arguments>>(p_arguments[I])... };
 				if (!(std::get<I>(values).has_value() && ...)) {
 					return make_error("{}(): an argument is of the wrong type", full_name);
@@ -198,7 +200,8 @@ private:
 				} else {
 					return Variant((self.*p_method)(*std::get<I>(values)...));
 				}
-			}(std::index_sequence_for<Arguments...>());
+			}
+			(std::index_sequence_for<Arguments...>());
 		};
 		info.methods.push_back(std::move(method));
 		documentation = &info.methods.back().documentation;

@@ -145,7 +145,7 @@ std::vector<ConstantInfo> ClassDB::get_enum_constants(const std::string &p_enum)
 	std::vector<ConstantInfo> constants;
 	const size_t dot = p_enum.find('.');
 	const ClassInfo *info = get_class_info(p_enum.substr(0, dot));
-	for (const ConstantInfo &constant : info && dot != std::string::npos ? info->constants : std::vector<ConstantInfo>()) {
+	for (const ConstantInfo &constant : info &&dot != std::string::npos ? info->constants : std::vector<ConstantInfo>()) {
 		if (constant.enum_name == p_enum.substr(dot + 1)) {
 			constants.push_back(constant);
 		}

@@ -20,7 +20,13 @@ enum PropertyUsage : uint32_t {
 	PROPERTY_USAGE_DEFAULT = 6,
 };
 
-enum class PropertyHint : uint8_t { NONE, RANGE, ENUM, RESOURCE_TYPE, FLAGS };
+enum class PropertyHint : uint8_t {
+	NONE,
+	RANGE,
+	ENUM,
+	RESOURCE_TYPE,
+	FLAGS
+};
 
 struct PropertyRange {
 	double min = 0.0;

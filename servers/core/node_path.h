@@ -11,7 +11,8 @@ struct NodePath {
 	std::string text;
 
 	NodePath() = default;
-	explicit NodePath(std::string p_text) : text(std::move(p_text)) {}
+	explicit NodePath(std::string p_text) :
+			text(std::move(p_text)) {}
 
 	bool is_empty() const { return text.empty(); }
 	bool is_absolute() const { return !text.empty() && text[0] == '/'; }

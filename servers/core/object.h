@@ -34,13 +34,17 @@ private:
 };
 
 // First line of every class below Object. bind() tells the registry its members: see class_builder.h.
-#define LUCENT_CLASS(m_class, m_parent)                                                                          \
-public:                                                                                                          \
-	using Super = m_parent;                                                                                      \
-	static const char *get_class_static() { return #m_class; }                                                   \
-	const char *get_class() const override { return #m_class; }                                                  \
-	static void bind(::lucent::ClassBuilder<m_class> &r_class);                                                  \
-                                                                                                                 \
+#define LUCENT_CLASS(m_class, m_parent) \
+public: \
+	using Super = m_parent; \
+	static const char *get_class_static() { \
+		return #m_class; \
+	} \
+	const char *get_class() const override { \
+		return #m_class; \
+	} \
+	static void bind(::lucent::ClassBuilder<m_class> &r_class); \
+\
 private:
 
 using SignalHandler = std::function<void(const Array &p_arguments)>;
@@ -50,10 +54,13 @@ class Object {
 public:
 	using Super = void;
 
-	enum { NOTIFICATION_POSTINITIALIZE = 0,
-		NOTIFICATION_PREDELETE = 1 };
+	enum {
+		NOTIFICATION_POSTINITIALIZE = 0,
+		NOTIFICATION_PREDELETE = 1
+	};
 
-	Object() : instance_id(ObjectDB::add(this)) {}
+	Object() :
+			instance_id(ObjectDB::add(this)) {}
 	virtual ~Object() { ObjectDB::remove(instance_id); }
 	Object(const Object &) = delete;
 	Object &operator=(const Object &) = delete;

@@ -28,8 +28,10 @@ bool Dictionary::operator==(const Dictionary &p_other) const {
 	return entries == p_other.entries;
 }
 
-Variant::Variant(Array p_value) : storage(std::move(p_value)) {}
-Variant::Variant(Dictionary p_value) : storage(std::move(p_value)) {}
+Variant::Variant(Array p_value) :
+		storage(std::move(p_value)) {}
+Variant::Variant(Dictionary p_value) :
+		storage(std::move(p_value)) {}
 
 Variant::Variant(Object *p_object) {
 	ObjectHandle handle;

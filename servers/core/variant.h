@@ -82,42 +82,67 @@ public:
 
 	Variant() = default;
 	template <std::same_as<bool> T>
-	Variant(T p_value) : storage(p_value) {}
+	Variant(T p_value) :
+			storage(p_value) {}
 	template <typename T>
-		requires(std::integral<T> && !std::same_as<T, bool>)
-	Variant(T p_value) : storage(int64_t(p_value)) {}
+	requires(std::integral<T> && !std::same_as<T, bool>)
+			Variant(T p_value) :
+			storage(int64_t(p_value)) {}
 	template <std::floating_point T>
-	Variant(T p_value) : storage(double(p_value)) {}
+	Variant(T p_value) :
+			storage(double(p_value)) {}
 	template <typename T>
-		requires std::is_enum_v<T>
-	Variant(T p_value) : storage(int64_t(p_value)) {}
-	Variant(const char *p_value) : storage(std::string(p_value)) {}
-	Variant(std::string p_value) : storage(std::move(p_value)) {}
-	Variant(const Vector2 &p_value) : storage(p_value) {}
-	Variant(const Vector2i &p_value) : storage(p_value) {}
-	Variant(const Vector3 &p_value) : storage(p_value) {}
-	Variant(const Vector3i &p_value) : storage(p_value) {}
-	Variant(const Vector4 &p_value) : storage(p_value) {}
-	Variant(const Quaternion &p_value) : storage(p_value) {}
-	Variant(const Basis &p_value) : storage(p_value) {}
-	Variant(const Transform3D &p_value) : storage(p_value) {}
-	Variant(const lucent::AABB &p_value) : storage(p_value) {}
-	Variant(const Color &p_value) : storage(p_value) {}
-	Variant(NodePath p_value) : storage(std::move(p_value)) {}
+	requires std::is_enum_v<T>
+	Variant(T p_value) :
+			storage(int64_t(p_value)) {}
+	Variant(const char *p_value) :
+			storage(std::string(p_value)) {}
+	Variant(std::string p_value) :
+			storage(std::move(p_value)) {}
+	Variant(const Vector2 &p_value) :
+			storage(p_value) {}
+	Variant(const Vector2i &p_value) :
+			storage(p_value) {}
+	Variant(const Vector3 &p_value) :
+			storage(p_value) {}
+	Variant(const Vector3i &p_value) :
+			storage(p_value) {}
+	Variant(const Vector4 &p_value) :
+			storage(p_value) {}
+	Variant(const Quaternion &p_value) :
+			storage(p_value) {}
+	Variant(const Basis &p_value) :
+			storage(p_value) {}
+	Variant(const Transform3D &p_value) :
+			storage(p_value) {}
+	Variant(const lucent::AABB &p_value) :
+			storage(p_value) {}
+	Variant(const Color &p_value) :
+			storage(p_value) {}
+	Variant(NodePath p_value) :
+			storage(std::move(p_value)) {}
 	Variant(Array p_value);
 	Variant(Dictionary p_value);
-	Variant(std::vector<uint8_t> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<int32_t> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<float> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<Vector2> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<Vector3> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<Color> p_value) : storage(std::move(p_value)) {}
-	Variant(std::vector<std::string> p_value) : storage(std::move(p_value)) {}
+	Variant(std::vector<uint8_t> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<int32_t> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<float> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<Vector2> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<Vector3> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<Color> p_value) :
+			storage(std::move(p_value)) {}
+	Variant(std::vector<std::string> p_value) :
+			storage(std::move(p_value)) {}
 	// Null becomes an OBJECT that is null. A Resource that a Ref owns is shared, everything else is weak.
 	Variant(Object *p_object);
 	template <typename T>
-		requires std::is_convertible_v<T *, Resource *>
-	Variant(const Ref<T> &p_resource) : Variant(from_resource(p_resource)) {}
+	requires std::is_convertible_v<T *, Resource *>
+	Variant(const Ref<T> &p_resource) :
+			Variant(from_resource(p_resource)) {}
 
 	Type get_type() const { return Type(storage.index()); }
 	bool is_nil() const { return get_type() == Type::NIL; }

@@ -48,7 +48,8 @@ constexpr Variant::Type variant_type_of() {
 			size_t index = 0;
 			((std::is_same_v<std::variant_alternative_t<I, Variant::Storage>, T> ? (index = I) : 0), ...);
 			return Variant::Type(index);
-		}(std::make_index_sequence<size_t(Variant::Type::COUNT)>());
+		}
+		(std::make_index_sequence<size_t(Variant::Type::COUNT)>());
 	}
 }
 
