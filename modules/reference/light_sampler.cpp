@@ -56,8 +56,8 @@ LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, T
 	for (size_t i = 0; i < emitters.size(); i++) {
 		emitter_cdf.push_back(float(running / total));
 		running += weights[i];
-		float &area_pdf = area_pdfs[r_trace.surfaces[emitters[i].surface].first_emitter + emitters[i].primitive];
-		area_pdf = float(weights[i] / total / area_pdf); // held the area until now
+		emitters[i].area_pdf = float(weights[i] / total / emitters[i].area_pdf); // held the area until now
+		area_pdfs[r_trace.surfaces[emitters[i].surface].first_emitter + emitters[i].primitive] = emitters[i].area_pdf;
 	}
 	emitter_cdf.push_back(1.0f);
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
@@ -75,17 +75,24 @@ void LightSampler::add_emitters(TraceScene &r_trace, uint32_t p_surface, std::ve
 	surface.first_emitter = uint32_t(area_pdfs.size());
 	area_pdfs.resize(area_pdfs.size() + triangle_count, 0.0f);
 	for (uint32_t i = 0; i < triangle_count; i++) {
-		const Vector3 &p0 = surface.positions[indices[3 * i]];
-		const float area = 0.5f * glm::length(glm::cross(surface.positions[indices[3 * i + 1]] - p0, surface.positions[indices[3 * i + 2]] - p0));
+		Emitter emitter = {};
+		emitter.surface = p_surface;
+		emitter.primitive = i;
+		emitter.corner = surface.positions[indices[3 * i]];
+		emitter.edge1 = surface.positions[indices[3 * i + 1]] - emitter.corner;
+		emitter.edge2 = surface.positions[indices[3 * i + 2]] - emitter.corner;
+		const Vector3 cross = glm::cross(emitter.edge1, emitter.edge2);
+		emitter.area_pdf = 0.5f * glm::length(cross);
+		emitter.normal = cross * (0.5f * surface.orientation / emitter.area_pdf);
+		emitter.offset_m = 1e-6f + 4e-6f * (glm::length(emitter.corner) + glm::length(emitter.edge1) + glm::length(emitter.edge2));
 		float average, brightest;
 		estimate_emission(r_trace, p_surface, i, average, brightest);
 		// A floor of 1e-3 of the parameter's own brightness: a texture may shine between the 16 points.
 		const float floor_value = 1e-3f * std::max(mean(r_trace.material_of(p_surface).parameters.emission), brightest);
-		const double weight = double(area) * std::max(average, floor_value);
+		const double weight = double(emitter.area_pdf) * std::max(average, floor_value);
 		if (weight > 0 && std::isfinite(weight)) {
-			emitters.push_back({ p_surface, i });
+			emitters.push_back(emitter);
 			r_weights.push_back(weight);
-			area_pdfs[surface.first_emitter + i] = area;
 		}
 	}
 }
@@ -111,32 +118,25 @@ EmitterSample LightSampler::sample_emitter(const TraceScene &p_trace, const Vect
 	EmitterSample sample;
 	const float choice = r_random.next();
 	const size_t index = std::clamp<ptrdiff_t>(std::upper_bound(emitter_cdf.begin(), emitter_cdf.end(), choice) - emitter_cdf.begin() - 1, 0, ptrdiff_t(emitters.size()) - 1);
-	const auto [surface_index, primitive] = emitters[index];
-	const TraceSurface &surface = p_trace.surfaces[surface_index];
-	const uint32_t *indices = surface.mesh->indices.data() + 3 * size_t(primitive);
+	const Emitter &emitter = emitters[index];
 	float u = r_random.next();
 	float v = r_random.next();
 	if (u + v > 1.0f) {
 		u = 1.0f - u;
 		v = 1.0f - v;
 	}
-	const Vector3 &p0 = surface.positions[indices[0]];
-	const Vector3 edge1 = surface.positions[indices[1]] - p0;
-	const Vector3 edge2 = surface.positions[indices[2]] - p0;
-	const Vector3 position = p0 + edge1 * u + edge2 * v;
-	const Vector3 normal = glm::normalize(glm::cross(edge1, edge2)) * surface.orientation;
+	const Vector3 position = emitter.corner + emitter.edge1 * u + emitter.edge2 * v;
 	const Vector3 to_emitter = position - p_position;
 	const float square = glm::dot(to_emitter, to_emitter);
-	const float distance = std::sqrt(square);
-	const float cosine = -glm::dot(normal, to_emitter) / distance; // > 0: its front is seen
-	if (!(std::abs(cosine) > 1e-6f) || !p_trace.material_of(surface_index).visible_from(cosine > 0.0f)) {
+	const float inverse_distance = 1.0f / std::sqrt(square);
+	sample.direction = to_emitter * inverse_distance;
+	const float cosine = -glm::dot(emitter.normal, sample.direction); // > 0: its front is seen
+	if (!(std::abs(cosine) > 1e-6f) || !p_trace.material_of(emitter.surface).visible_from(cosine > 0.0f)) {
 		return sample;
 	}
-	const float offset = 1e-6f + 4e-6f * glm::length(position);
-	sample.position = position + normal * (cosine > 0.0f ? offset : -offset);
-	sample.direction = to_emitter / distance;
-	sample.radiance = p_trace.emission(surface_index, primitive, u, v) * p_trace.alpha(surface_index, primitive, u, v);
-	sample.pdf = area_pdfs[surface.first_emitter + primitive] * square / std::abs(cosine);
+	sample.position = position + emitter.normal * (cosine > 0.0f ? emitter.offset_m : -emitter.offset_m);
+	sample.radiance = p_trace.emission(emitter.surface, emitter.primitive, u, v) * p_trace.alpha(emitter.surface, emitter.primitive, u, v);
+	sample.pdf = emitter.area_pdf * square / std::abs(cosine);
 	return sample;
 }
 

@@ -44,9 +44,15 @@ public:
 	LampSample sample_lamp(uint32_t p_lamp, const Vector3 &p_position, bool p_indirect, Random &r_random) const;
 
 private:
-	struct Emitter {
+	struct Emitter { // a triangle, gathered for one look-up
 		uint32_t surface;
 		uint32_t primitive;
+		Vector3 corner;
+		Vector3 edge1;
+		Vector3 edge2;
+		Vector3 normal; // unit, of the front
+		float area_pdf; // 1 / m^2, choice included
+		float offset_m; // that keeps a ray's end off the triangle
 	};
 	struct Lamp {
 		Light parameters;
@@ -64,7 +70,7 @@ private:
 
 	std::vector<Emitter> emitters;
 	std::vector<float> emitter_cdf; // emitters + 1, ends at 1
-	std::vector<float> area_pdfs; // by first_emitter + primitive
+	std::vector<float> area_pdfs; // by first_emitter + primitive; 0: never chosen
 	std::vector<Lamp> lamps;
 };
 
