@@ -42,6 +42,8 @@ public:
 	// Fills p_target (RGBA16_FLOAT, linear) with a debug view; false: unknown name.
 	bool draw_debug_view(PassRecorder &r_recorder, const std::string &p_view, const GiGatherInputs &p_inputs, TextureHandle p_target);
 
+	// After the frame has been submitted: reads the counters of a frame that ends a full set of rays, and decides whether all is settled.
+	void after_frame();
 	GiStats stats() const;
 
 private:

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// The one interface by which surfaces and fog read GI: position, normal, view and roughness in, irradiance and radiance out.
+// Near a voxelised surface the answer comes from the surface records of the cells around the point, elsewhere from the eight
+// probes around it; both count only where no solid sub-voxel stands between.
+#ifndef GI_SAMPLE_INC
+#define GI_SAMPLE_INC
+#extension GL_EXT_samplerless_texture_functions : require
+#include "servers/rendering/gi/sdfgi/probes_inc.glsl"
+#include "servers/rendering/gi/world/surface_light_inc.glsl"
+
+layout(set = 0, binding = GI_PROBE_IRRADIANCE) uniform texture2D gi_probe_irradiance;
+layout(set = 0, binding = GI_PROBE_RADIANCE) uniform texture2D gi_probe_radiance;
+layout(set = 0, binding = GI_PROBE_OFFSETS, scalar) readonly buffer GiProbePlacesBlock {
+	ProbePlace gi_probe_places[];
+};
+layout(set = 0, binding = GI_PROBE_SAMPLER) uniform sampler gi_probe_sampler;
+
+// Roughness from which a reflection is no longer traced, and from which it is read as irradiance; between them the probes' radiance.
+#define GI_TRACED_ROUGHNESS 0.25
+#define GI_DIFFUSE_ROUGHNESS 0.8
+// Roughness that the prepass writes for surfaces without a specular lobe: no radiance is looked up.
+#define GI_NO_SPECULAR 1.5
+
+struct GiSample {
+	vec3 irradiance; // / pi
+	vec3 radiance;
+	float weight; // 0 where GI doesn't reach
+};
+
+struct GiQuery {
+	vec3 position_m;
+	vec3 normal;
+	vec3 view; // unit, to the eye
+	float roughness;
+	vec3 start_m; // the free point that visibility is tested from
+	bool has_start;
+};
+
+// A point just off the surface, in a free sub-voxel. The way to the eye is free, so steps towards it stay on the surface's side.
+void find_query_start(inout GiQuery query, uint cascade) {
+	float along_normal = sub_voxel_along_m(cascade, query.normal);
+	float along_view = sub_voxel_along_m(cascade, query.view);
+	query.has_start = false;
+	for (uint i = 0u; i < 10u && !query.has_start; i++) {
+		// First off the surface, then from there towards the eye, then towards the eye alone.
+		float off = i < 8u ? probe_params.normal_bias : 0.0;
+		float towards = probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u));
+		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
+		query.has_start = !sub_voxel_is_solid(cascade, query.start_m);
+	}
+}
+
+// Irradiance from the records of the 2 x 2 x 2 cells whose centres surround the point. w: how much of the footprint answered.
+vec4 sample_records(GiQuery query, uint cascade) {
+	GiCascade c = world.cascades[cascade];
+	vec3 p = query.position_m / c.cell_m - 0.5;
+	ivec3 base = ivec3(floor(p));
+	vec3 f = p - vec3(base);
+	vec3 n = query.normal;
+	vec3 sum = vec3(0.0);
+	float weight_sum = 0.0;
+	uint record_end = c.record_base + world.record_capacity;
+	float cell_along_normal = 4.0 * sub_voxel_along_m(cascade, n);
+	for (uint i = 0u; i < 8u; i++) {
+		ivec3 corner = ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
+		vec3 axis_weight = mix(1.0 - f, f, vec3(corner));
+		// Along the normal the surface may lie anywhere in its cell: there the distance to its plane decides.
+		axis_weight = mix(axis_weight, vec3(1.0), n * n);
+		float cell_weight = axis_weight.x * axis_weight.y * axis_weight.z;
+		ivec3 local = base + corner - c.origin_cells;
+		if (cell_weight < 0.01 || any(lessThan(local, ivec3(0))) || any(greaterThanEqual(local, ivec3(int(world.grid_size))))) {
+			continue;
+		}
+		uint cell = find_cell(cascade, storage_from_world_cell(base + corner));
+		if (cell >= WORLD_LOST_CELL) {
+			continue;
+		}
+		uint packed_records = world_cells[cell].records;
+		uint index = packed_records >> 6;
+		for (uint faces = packed_records & 63u; faces != 0u && index < record_end; faces &= faces - 1u, index++) {
+			WorldRecord record = world_records[index];
+			float facing = dot(n, record_normal(record));
+			if (facing < 0.5 || !record_has_start(record)) {
+				continue;
+			}
+			float off_plane = dot(query.position_m - record_position_m(record), n) / cell_along_normal * 3.0;
+			float weight = cell_weight * (facing - 0.45) * exp(-off_plane * off_plane);
+			if (weight < 0.002) {
+				continue;
+			}
+			if (query.has_start && !short_way_is_free(cascade, query.start_m, record_start_m(record))) {
+				continue;
+			}
+			if (!query.has_start && cell_is_split(packed_records & 63u)) {
+				continue;
+			}
+			sum += weight * vec4_from_half4(world_record_light[index].zw).rgb;
+			weight_sum += weight;
+		}
+	}
+	return weight_sum > 0.0 ? vec4(sum / weight_sum, clamp(weight_sum * 10.0, 0.0, 1.0)) : vec4(0.0);
+}
+
+vec2 probe_uv(uint index, vec3 direction, int texels, vec2 atlas_size) {
+	vec2 within = (octahedral_from_direction(direction) * 0.5 + 0.5) * float(texels) + 1.0;
+	return (vec2(probe_tile(index, texels + 2)) + within) / atlas_size;
+}
+
+struct ProbeSums {
+	vec3 irradiance;
+	vec3 radiance;
+	float weight;
+};
+
+// The eight probes around the point: trilinear x facing x visibility.
+ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_radiance) {
+	float spacing = float(probe_params.spacing_cells);
+	GiCascade c = world.cascades[cascade];
+	vec3 p = query.start_m / (c.cell_m * spacing);
+	ivec3 base = ivec3(floor(p));
+	vec3 f = p - vec3(base);
+	vec2 irradiance_size = vec2(textureSize(gi_probe_irradiance, 0));
+	vec2 radiance_size = vec2(textureSize(gi_probe_radiance, 0));
+	ProbeSums sums = ProbeSums(vec3(0.0), vec3(0.0), 0.0);
+	for (uint i = 0u; i < 8u; i++) {
+		ivec3 corner = ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
+		ivec3 probe = base + corner;
+		uint index = probe_index(cascade, probe);
+		ProbePlace place = gi_probe_places[index];
+		if (!probe_is_free(place)) {
+			continue;
+		}
+		vec3 to_probe = probe_position_m(cascade, probe, place) - query.start_m;
+		float distance_m = max(length(to_probe), 1e-4);
+		vec3 axis_weight = mix(1.0 - f, f, vec3(corner));
+		float weight = max(axis_weight.x * axis_weight.y * axis_weight.z, 1e-3);
+		float facing = dot(to_probe / distance_m, query.normal) * 0.5 + 0.5;
+		weight *= facing * facing + 0.02;
+		if (probe_params.use_occlusion != 0u && trace_world(query.start_m, to_probe / distance_m, distance_m, cascade).hit) {
+			continue;
+		}
+		sums.irradiance += weight * textureLod(sampler2D(gi_probe_irradiance, gi_probe_sampler), probe_uv(index, query.normal, PROBE_IRRADIANCE_TEXELS, irradiance_size), 0.0).rgb;
+		if (with_radiance) {
+			sums.radiance += weight * textureLod(sampler2D(gi_probe_radiance, gi_probe_sampler), probe_uv(index, reflected, PROBE_RADIANCE_TEXELS, radiance_size), 0.0).rgb;
+		}
+		sums.weight += weight;
+	}
+	return sums;
+}
+
+// 1 well inside the cascade, 0 at its edge, over one probe spacing.
+float cascade_fade(uint cascade, vec3 position_m) {
+	GiCascade c = world.cascades[cascade];
+	vec3 p = position_m / c.cell_m - vec3(c.origin_cells);
+	vec3 to_edge = min(p, vec3(float(world.grid_size)) - p);
+	return clamp((min(to_edge.x, min(to_edge.y, to_edge.z)) - 1.0) / float(probe_params.spacing_cells), 0.0, 1.0);
+}
+
+GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
+	GiSample result = GiSample(vec3(0.0), vec3(0.0), 0.0);
+	vec3 reflected = reflect(-view, normal);
+	bool with_radiance = roughness < GI_NO_SPECULAR;
+	float left = 1.0;
+	uint first = finest_cascade(position_m);
+	GiQuery query = GiQuery(position_m, normal, view, roughness, position_m, false);
+	for (uint cascade = first; cascade < min(first + 2u, world.cascade_count) && left > 0.0; cascade++) {
+		float share = left * cascade_fade(cascade, position_m);
+		if (share <= 0.0) {
+			continue;
+		}
+		find_query_start(query, cascade);
+		vec4 records = sample_records(query, cascade);
+		vec3 irradiance = records.rgb;
+		vec3 radiance = records.rgb;
+		if (records.w < 1.0 || (with_radiance && roughness < GI_DIFFUSE_ROUGHNESS)) {
+			ProbeSums probes = sample_probes(query, cascade, reflected, with_radiance);
+			if (probes.weight > 0.0) {
+				irradiance = mix(probes.irradiance / probes.weight, records.rgb, records.w);
+				radiance = mix(probes.radiance / probes.weight, irradiance, smoothstep(0.5, GI_DIFFUSE_ROUGHNESS, roughness));
+			}
+		}
+		result.irradiance += share * irradiance;
+		result.radiance += share * radiance;
+		result.weight += share;
+		left -= share;
+	}
+	result.irradiance *= probe_params.energy;
+	result.radiance *= probe_params.energy;
+	return result;
+}
+
+#endif

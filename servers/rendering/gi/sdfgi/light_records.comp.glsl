@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// Light on surface records: eight lanes a record, each traces one gather ray, one lamp's shadow ray and one ray to an emissive
+// record. A record's output is irradiance / pi, averaged over a full set of rays ("epoch"); within an epoch the new mean takes
+// over from the old one in proportion to the rays done, so that change shows at once and a still scene stands still.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/sdfgi/sdfgi_io.h"
+#include "servers/rendering/gi/world/surface_light_inc.glsl"
+#include "servers/rendering/shaders/sampling_inc.glsl"
+#include "servers/rendering/shaders/scene_io.h"
+
+#define LANES 8u
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = LIGHT_RECORDS_LIGHTS, scalar) readonly buffer LightsBlock {
+	LightData lights[];
+};
+layout(set = 0, binding = LIGHT_RECORDS_COUNTS, scalar) readonly buffer CountsBlock {
+	CascadeCounts counts[];
+};
+layout(set = 0, binding = LIGHT_RECORDS_EMITTERS, scalar) readonly buffer EmittersBlock {
+	Emitter emitters[];
+};
+layout(set = 0, binding = LIGHT_RECORDS_EMITTER_COUNT, scalar) readonly buffer EmitterCountBlock {
+	uint emitter_count;
+};
+layout(set = 0, binding = LIGHT_RECORDS_STATE, scalar) buffer StateBlock {
+	vec3 state[]; // four a record: last epoch's mean and this epoch's sum of all light, then of light other than lamps'
+};
+layout(set = 0, binding = LIGHT_RECORDS_OUT, scalar) writeonly buffer OutBlock {
+	uvec4 new_light[];
+};
+layout(set = 0, binding = LIGHT_RECORDS_STATISTICS, scalar) buffer StatisticsBlock {
+	SdfgiStatistics statistics;
+};
+layout(push_constant, scalar) uniform LightRecordsPush {
+	LightRecordsConstants constants;
+};
+
+shared vec3 group_indirect[64];
+shared vec3 group_lamps[64];
+shared uint group_rays;
+
+// A point of the record's surface within its cell, off the surface by the start offset: the centroid's start, or, where a
+// straight way from there is free, the start above another column of the cell's sub-voxels.
+vec3 jittered_start(WorldRecord record, uvec2 bits, vec3 normal, vec3 start_m, vec2 u) {
+	uint cascade = record_cascade(record);
+	uint axis = record_face(record) >> 1;
+	uint a = (axis + 1u) % 3u;
+	uint b = (axis + 2u) % 3u;
+	vec3 cell_m = world.cascades[cascade].cell_m;
+	vec3 offset = vec3(0.0);
+	vec3 center = record_position_in_cell(record);
+	offset[a] = (u.x - center[a]) * cell_m[a];
+	offset[b] = (u.y - center[b]) * cell_m[b];
+	// Slide within the record's plane.
+	offset[axis] = -(offset[a] * normal[a] + offset[b] * normal[b]) / normal[axis];
+	offset[axis] = clamp(offset[axis], -cell_m[axis], cell_m[axis]);
+	uvec2 column = min(uvec2(u * 4.0), uvec2(3u));
+	bool surface = false;
+	for (uint i = 0u; i < 4u; i++) {
+		uvec3 s;
+		s[axis] = i;
+		s[a] = column.x;
+		s[b] = column.y;
+		surface = surface || bit_is_set(bits, s.x + 4u * s.y + 16u * s.z);
+	}
+	vec3 moved = start_m + offset;
+	return surface && short_way_is_free(cascade, start_m, moved) ? moved : start_m;
+}
+
+float light_attenuation(LightData light, vec3 to_light, float distance_m) {
+	float window = distance_m / light.range;
+	window = max(1.0 - window * window * window * window, 0.0);
+	float attenuation = window * window * pow(max(distance_m, 1e-4), -light.attenuation);
+	if (light.type == LIGHT_TYPE_SPOT) {
+		float cosine = dot(-to_light, light.direction);
+		if (cosine <= light.spot_cos) {
+			return 0.0;
+		}
+		float rim = max(1e-4, (1.0 - cosine) / (1.0 - light.spot_cos));
+		attenuation *= 1.0 - pow(rim, light.spot_attenuation);
+	}
+	return attenuation;
+}
+
+struct LightRay {
+	vec3 direction;
+	float t_max_m;
+	vec3 light; // irradiance / pi if nothing is in the way
+};
+
+LightRay ray_to_lamp(LightData light, vec3 from_m, vec3 normal, vec2 u) {
+	LightRay ray;
+	ray.t_max_m = 1e6;
+	ray.light = light.color * light.indirect_energy;
+	if (light.type == LIGHT_TYPE_DIRECTIONAL) {
+		ray.direction = -light.direction;
+		if (light.angular_radius > 0.0) {
+			float radius = tan(light.angular_radius) * sqrt(u.x);
+			ray.direction = normalize(basis_from_normal(ray.direction) * vec3(radius * cos(2.0 * PI * u.y), radius * sin(2.0 * PI * u.y), 1.0));
+		}
+	} else {
+		vec3 way = light.position - from_m;
+		float distance_m = max(length(way), 1e-4);
+		ray.direction = way / distance_m;
+		ray.t_max_m = distance_m;
+		ray.light *= light_attenuation(light, ray.direction, distance_m);
+	}
+	ray.light *= max(dot(normal, ray.direction), 0.0);
+	return ray;
+}
+
+// A point on an emitter: a column of its face with surface in it.
+vec3 emitter_point_m(WorldRecord record, vec2 u) {
+	uint axis = record_face(record) >> 1;
+	uint a = (axis + 1u) % 3u;
+	uint b = (axis + 2u) % 3u;
+	vec3 cell_m = world.cascades[record_cascade(record)].cell_m;
+	vec3 center = record_position_in_cell(record);
+	uint index = find_cell(record_cascade(record), storage_from_world_cell(record_world_cell(record)));
+	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
+	uint mask = 0u;
+	for (uint i = 0u; i < 64u; i++) {
+		if (bit_is_set(bits, i)) {
+			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
+			mask |= 1u << (s[a] + 4u * s[b]);
+		}
+	}
+	uint count = uint(bitCount(mask));
+	if (count == 0u) {
+		return record_position_m(record);
+	}
+	float scaled = u.x * float(count);
+	uint pick = min(uint(scaled), count - 1u);
+	for (uint i = 0u; i < 16u && pick > 0u; i++, pick--) {
+		mask &= mask - 1u;
+	}
+	uint column = uint(findLSB(mask));
+	vec2 within = (vec2(float(column & 3u), float(column >> 2)) + vec2(fract(scaled), u.y)) / 4.0;
+	vec3 normal = record_normal(record);
+	vec3 offset = vec3(0.0);
+	offset[a] = (within.x - center[a]) * cell_m[a];
+	offset[b] = (within.y - center[b]) * cell_m[b];
+	offset[axis] = clamp(-(offset[a] * normal[a] + offset[b] * normal[b]) / normal[axis], -cell_m[axis], cell_m[axis]);
+	return record_position_m(record) + offset;
+}
+
+uint find_emitter(float u) {
+	uint low = 0u;
+	uint high = emitter_count - 1u;
+	for (uint i = 0u; i < 24u && low < high; i++) {
+		uint middle = (low + high) / 2u;
+		if (emitters[middle].cdf > u) {
+			high = middle;
+		} else {
+			low = middle + 1u;
+		}
+	}
+	return low;
+}
+
+struct EmitterSample {
+	LightRay ray;
+	uint record;
+	float weight; // luminance of ray.light: what resampling goes by
+};
+
+EmitterSample sample_emitter(vec3 from_m, vec3 normal, float pick, vec2 u) {
+	Emitter emitter = emitters[find_emitter(pick)];
+	WorldRecord record = world_records[emitter.record];
+	EmitterSample result;
+	result.record = emitter.record;
+	vec3 way = emitter_point_m(record, u) - from_m;
+	float distance_squared = max(dot(way, way), 1e-6);
+	float distance_m = sqrt(distance_squared);
+	result.ray.direction = way / distance_m;
+	result.ray.t_max_m = distance_m;
+	float cosines = max(dot(normal, result.ray.direction), 0.0) * max(-dot(record_normal(record), result.ray.direction), 0.0);
+	// Nearer than a quarter cell the emitter fills the view: no more than that.
+	float nearest = 0.25 * world.cascades[record_cascade(record)].cell_m.x;
+	float form = cosines * emitter.area_m2 / (PI * max(distance_squared, nearest * nearest));
+	result.ray.light = color_from_rgb9e5(record.emission) * min(form, 1.0) / max(emitter.share, 1e-9);
+	result.weight = dot(result.ray.light, vec3(1.0));
+	return result;
+}
+
+// Three candidates by power, one kept by what it would give (resampled importance sampling, Talbot et al. 2005).
+EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) {
+	EmitterSample kept;
+	kept.weight = 0.0;
+	kept.record = 0u;
+	kept.ray.light = vec3(0.0);
+	kept.ray.direction = normal;
+	kept.ray.t_max_m = 0.0;
+	float sum = 0.0;
+	const uint CANDIDATES = 3u;
+	for (uint i = 0u; i < CANDIDATES; i++) {
+		float pick = r2_point(index * CANDIDATES + i, seed).x;
+		EmitterSample candidate = sample_emitter(from_m, normal, pick, r2_point(index, hash_uint(seed + 11u + i)));
+		sum += candidate.weight;
+		if (candidate.weight > 0.0 && unit_float(hash_uint(seed ^ (index * 8u + i) * 0x9E3779B9u)) * sum < candidate.weight) {
+			kept = candidate;
+		}
+	}
+	kept.ray.light *= kept.weight > 0.0 ? sum / (float(CANDIDATES) * kept.weight) : 0.0;
+	return kept;
+}
+
+struct LaneLight {
+	vec3 indirect; // from surfaces, emitters and the sky
+	vec3 lamps;
+	uint rays;
+};
+
+LaneLight light_of_lane(WorldRecord record, uint lane) {
+	vec3 normal = record_normal(record);
+	vec3 start_m = record_start_m(record);
+	uint cascade = record_cascade(record);
+	ivec3 cell = record_world_cell(record);
+	uint seed = hash_uint(uint(cell.x) * 73856093u ^ hash_uint(uint(cell.y) * 19349663u ^ hash_uint(uint(cell.z) * 83492791u ^ (record.cell >> 24))));
+	uint sample_index = (constants.frame % constants.epoch_frames) * LANES + lane;
+
+	uint index = find_cell(cascade, storage_from_world_cell(cell));
+	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
+	vec3 from_m = jittered_start(record, bits, normal, start_m, r2_point(sample_index, seed + 5u));
+
+	// Lamps take turns: `slots` is their count rounded up to a power of two, so that an epoch holds each equally often.
+	uint slots = 1u;
+	for (uint i = 0u; i < 20u && slots < constants.light_count; i++) {
+		slots *= 2u;
+	}
+	uint lane_slots = max(slots / LANES, 1u);
+	uint lamp_rays = constants.light_count == 0u ? 0u : max(lane_slots / constants.epoch_frames, 1u);
+	// Ray 0 gathers, ray 1 goes to an emitter, the others to lamps. One loop, so that the tracing code is there once.
+	LaneLight light = LaneLight(vec3(0.0), vec3(0.0), 0u);
+	for (uint k = 0u; k < 2u + lamp_rays; k++) {
+		LightRay ray;
+		uint target = 0u;
+		if (k == 0u) {
+			ray.direction = cosine_direction(r2_point(sample_index, seed), normal);
+			ray.t_max_m = 1e6;
+			ray.light = vec3(1.0 / float(LANES));
+		} else if (k == 1u) {
+			if (emitter_count == 0u) {
+				continue;
+			}
+			EmitterSample emitter = resample_emitter(from_m, normal, sample_index, seed + 3u);
+			ray = emitter.ray;
+			ray.light /= float(LANES);
+			target = emitter.record;
+		} else {
+			uint turn = constants.frame * lamp_rays + k - 2u;
+			uint lamp = slots < LANES ? lane % slots : lane * lane_slots + turn % lane_slots;
+			if (lamp >= constants.light_count) {
+				continue;
+			}
+			ray = ray_to_lamp(lights[lamp], from_m, normal, r2_point(sample_index, seed + 7u));
+			ray.light *= float(slots) / float(LANES * lamp_rays);
+		}
+		if (ray.light == vec3(0.0)) {
+			continue;
+		}
+		light.rays++;
+		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m, cascade);
+		if (k == 0u) {
+			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, false) * constants.feedback : sky_radiance(ray.direction));
+		} else if (k == 1u) {
+			WorldRecord emitter = world_records[target];
+			bool same_cell = hit.hit && hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter);
+			float close_m = 1.5 * sub_voxel_along_m(record_cascade(emitter), ray.direction);
+			light.indirect += !hit.hit || same_cell || ray.t_max_m - hit.t_m < close_m ? ray.light : vec3(0.0);
+		} else {
+			light.lamps += hit.hit ? vec3(0.0) : ray.light;
+		}
+	}
+	return light;
+}
+
+// Takes one frame's light into an epoch's mean; returns what shows.
+vec3 advance(uint base, vec3 light, out float change) {
+	vec3 mean = state[base];
+	vec3 sum = state[base + 1u] + light;
+	float total = float(constants.epoch_frames);
+	uint turn = constants.frame % constants.epoch_frames;
+	float done = float(turn + 1u);
+	vec3 shown = constants.frame < constants.epoch_frames ? sum / done : mean + (sum - done * mean) / total;
+	change = 0.0;
+	if (turn == constants.epoch_frames - 1u) {
+		shown = sum / total;
+		change = dot(abs(shown - mean), vec3(1.0)) / max(dot(shown, vec3(1.0)), 1e-6);
+		mean = shown;
+		sum = vec3(0.0);
+	}
+	state[base] = mean;
+	state[base + 1u] = sum;
+	return max(shown, vec3(0.0));
+}
+
+void main() {
+	uint lane = gl_LocalInvocationIndex % LANES;
+	GiCascade cascade = world.cascades[constants.cascade];
+	uint count = min(counts[constants.cascade].records, world.record_capacity);
+	uint groups = (count + 7u) / 8u;
+	if (gl_LocalInvocationIndex == 0u) {
+		group_rays = 0u;
+	}
+	barrier();
+	for (uint group = gl_WorkGroupID.x; group < groups; group += gl_NumWorkGroups.x) {
+		uint i = group * 8u + gl_LocalInvocationIndex / LANES;
+		uint index = cascade.record_base + min(i, count - 1u);
+		WorldRecord record = world_records[index];
+		bool active_record = i < count && record_has_start(record) && !cell_in_hole(constants.cascade, record_world_cell(record));
+		LaneLight light = LaneLight(vec3(0.0), vec3(0.0), 0u);
+		if (active_record) {
+			light = light_of_lane(record, lane);
+			atomicAdd(group_rays, light.rays);
+		}
+		group_indirect[gl_LocalInvocationIndex] = light.indirect;
+		group_lamps[gl_LocalInvocationIndex] = light.lamps;
+		barrier();
+		if (lane == 0u && i < count) {
+			vec3 indirect = vec3(0.0);
+			vec3 lamps = vec3(0.0);
+			for (uint k = 0u; k < LANES; k++) {
+				indirect += group_indirect[gl_LocalInvocationIndex + k];
+				lamps += group_lamps[gl_LocalInvocationIndex + k];
+			}
+			uvec4 result = uvec4(0u);
+			if (active_record) {
+				float change;
+				vec3 shown = advance(index * 4u, indirect + lamps, change);
+				result.xy = half4_from_vec4(vec4(shown, 1.0));
+				if (constants.frame % constants.epoch_frames == constants.epoch_frames - 1u) {
+					atomicAdd(statistics.lit_records, dot(shown, vec3(1.0)) > 1e-6 ? 1u : 0u);
+					atomicAdd(statistics.changed_records, change > 0.01 ? 1u : 0u);
+				}
+				float unused;
+				result.zw = half4_from_vec4(vec4(advance(index * 4u + 2u, indirect, unused), 1.0));
+			}
+			new_light[index] = result;
+		}
+		barrier();
+	}
+	if (gl_LocalInvocationIndex == 0u) {
+		atomicAdd(statistics.rays, group_rays);
+	}
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "servers/rendering/gi/sdfgi/sdfgi.h"
+
+#include "servers/rendering/device/rendering_device.h"
+#include "servers/rendering/gi/sdfgi/sdfgi_cascades.h"
+#include "servers/rendering/gi/sdfgi/sdfgi_passes.h"
+
+#include <algorithm>
+
+namespace lucent {
+
+namespace {
+
+constexpr uint32_t PROBE_TILES_A_ROW = 256;
+constexpr uint32_t PROBE_AVERAGE_VISITS = 8;
+// Light is settled when fewer than this share of the lit records moved by over 1 % in an epoch, or after this many epochs.
+constexpr double SETTLED_SHARE = 0.01;
+constexpr uint32_t MAX_EPOCHS = 24;
+
+struct DebugView {
+	const char *name;
+	uint32_t number; // DEBUG_VIEW_* in debug_gi.comp.glsl
+};
+constexpr DebugView DEBUG_VIEWS[] = { { "sdf", 0 }, { "albedo", 1 }, { "light", 2 }, { "emission", 3 }, { "normals", 4 }, { "cascade", 5 }, { "probes", 6 }, { "occlusion", 7 }, { "radiance", 8 } };
+
+} // namespace
+
+struct Sdfgi::Impl {
+	explicit Impl(RenderingDevice &p_device) :
+			device(p_device) {}
+
+	RenderingDevice &device;
+	SdfgiSettings settings;
+	std::unique_ptr<GiWorld> world;
+	OwnedBuffer probe_params;
+	OwnedBuffer probe_places;
+	OwnedBuffer statistics;
+	OwnedTexture radiance_atlas;
+	OwnedTexture irradiance_atlas;
+	SamplerHandle probe_sampler;
+	uint32_t probes_axis = 0;
+	bool cascades_placed = false;
+	uint64_t geometry_version = 0;
+	uint64_t light_version = 0;
+	TextureHandle sky;
+	BufferHandle lights;
+	uint32_t light_count = 0;
+	uint32_t frame = 0; // since the light was reset
+	bool converged = false;
+	bool ends_epoch = false; // the frame that was last recorded
+	GiStats stats;
+
+	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
+	void create(const SdfgiSettings &p_settings);
+	SdfgiPassInputs pass_inputs() const;
+	bool place_cascades(const Vector3 &p_camera_m, std::vector<uint32_t> &r_moved);
+	void upload_probe_params(PassRecorder &r_recorder, const Vector3 &p_camera_m);
+	void light_frame(PassRecorder &r_recorder);
+};
+
+Sdfgi::Sdfgi(RenderingDevice &p_device) :
+		impl(std::make_unique<Impl>(p_device)) {
+}
+
+Sdfgi::~Sdfgi() = default;
+
+void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
+	settings = p_settings;
+	world.reset();
+	world = std::make_unique<GiWorld>(device, GiWorldDesc{ .cascades = settings.cascades, .grid_size = settings.grid_size_cells, .min_cell_m = settings.min_cell_size_m, .y_multiplier = sdfgi_y_multiplier(settings.y_scale) });
+	probes_axis = settings.grid_size_cells / settings.probe_spacing_cells + 1;
+	const uint32_t probes = probes_in_cascade() * settings.cascades;
+	const uint32_t rows = (probes + PROBE_TILES_A_ROW - 1) / PROBE_TILES_A_ROW;
+	probe_params = device.create_buffer({ .size_bytes = sizeof(shader::ProbeParams), .usage = BUFFER_UNIFORM, .name = "sdfgi.probe_params" });
+	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
+	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
+	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
+		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
+	};
+	radiance_atlas = atlas("sdfgi.probe_radiance", PROBE_RADIANCE_BORDERED_TEXELS);
+	irradiance_atlas = atlas("sdfgi.probe_irradiance", PROBE_BORDERED_TEXELS);
+	probe_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
+	cascades_placed = false;
+	stats = {};
+	stats.probes = probes;
+	stats.bytes = world->size_bytes() + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
+}
+
+SdfgiPassInputs Sdfgi::Impl::pass_inputs() const {
+	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
+}
+
+// Lists the cascades that must be built anew. True: some moved.
+bool Sdfgi::Impl::place_cascades(const Vector3 &p_camera_m, std::vector<uint32_t> &r_moved) {
+	for (uint32_t i = 0; i < settings.cascades; i++) {
+		const Vector3i old_origin = world->origin_cells(i);
+		const Vector3i origin = cascade_origin_cells(p_camera_m, world->cell_m(i), settings.grid_size_cells, settings.probe_spacing_cells, cascades_placed ? &old_origin : nullptr);
+		if (!cascades_placed || origin != old_origin) {
+			world->set_origin_cells(i, origin);
+			r_moved.push_back(i);
+		}
+	}
+	cascades_placed = true;
+	return !r_moved.empty();
+}
+
+void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p_camera_m) {
+	const shader::ProbeParams params = {
+		.probes = probes_axis,
+		.spacing_cells = settings.probe_spacing_cells,
+		.rays = settings.probe_rays,
+		.frame = frame,
+		.normal_bias = settings.normal_bias,
+		.probe_bias = settings.probe_bias,
+		.energy = settings.energy,
+		.use_occlusion = settings.use_occlusion ? 1u : 0u,
+		.camera_m = p_camera_m,
+		.average_frames = PROBE_AVERAGE_VISITS,
+	};
+	r_recorder.update_buffer(probe_params, 0, std::as_bytes(std::span(&params, 1)));
+}
+
+void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
+	r_recorder.clear_buffer(statistics);
+	const SdfgiPassInputs inputs = pass_inputs();
+	for (uint32_t i = 0; i < settings.cascades; i++) {
+		const shader::LightRecordsConstants constants = {
+			.cascade = i,
+			.frame = frame,
+			.epoch_frames = settings.frames_to_converge,
+			.rays = settings.cell_rays,
+			.light_count = light_count,
+			.feedback = settings.bounce_feedback,
+			.seed_frame = frame,
+		};
+		light_records(r_recorder, inputs, constants);
+	}
+	world->swap_light();
+	const SdfgiPassInputs lit = pass_inputs();
+	for (uint32_t i = 0; i < settings.cascades; i++) {
+		trace_probes(r_recorder, lit, i);
+		filter_probes(r_recorder, lit, i);
+	}
+	ends_epoch = frame % settings.frames_to_converge == settings.frames_to_converge - 1;
+	frame++;
+	stats.frames++;
+}
+
+void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, const GiSceneView &p_scene, const Vector3 &p_camera_position_m) {
+	Impl &i = *impl;
+	SdfgiSettings live = i.settings;
+	live.energy = p_settings.energy;
+	live.bounce_feedback = p_settings.bounce_feedback;
+	live.read_sky_light = p_settings.read_sky_light;
+	live.normal_bias = p_settings.normal_bias;
+	live.probe_bias = p_settings.probe_bias;
+	live.use_occlusion = p_settings.use_occlusion;
+	const bool relight = live.bounce_feedback != i.settings.bounce_feedback || live.read_sky_light != i.settings.read_sky_light;
+	if (i.world == nullptr || live != p_settings) {
+		i.create(p_settings);
+	}
+	i.settings = p_settings;
+	i.sky = p_scene.sky_octahedral;
+	i.lights = p_scene.lights;
+	i.light_count = p_scene.light_count;
+	i.world->set_sky_scale(p_settings.read_sky_light ? 1.0f : 0.0f);
+
+	std::vector<uint32_t> stale;
+	i.place_cascades(p_camera_position_m, stale);
+	if (p_scene.geometry_version != i.geometry_version) {
+		stale.clear();
+		for (uint32_t c = 0; c < p_settings.cascades; c++) {
+			stale.push_back(c);
+		}
+	}
+	if (!stale.empty() || p_scene.light_version != i.light_version || relight) {
+		i.frame = 0;
+		i.converged = false;
+		i.stats.frames = 0;
+	}
+	i.geometry_version = p_scene.geometry_version;
+	i.light_version = p_scene.light_version;
+
+	i.world->upload_params(r_recorder);
+	i.upload_probe_params(r_recorder, p_camera_position_m);
+	for (const uint32_t cascade : stale) {
+		i.world->rebuild_cascade(r_recorder, p_scene, cascade);
+		place_probes(r_recorder, i.pass_inputs(), cascade);
+	}
+	if (!stale.empty()) {
+		i.world->collect_emitters(r_recorder);
+	}
+	if (i.frame == 0 && !i.converged) {
+		i.world->clear_record_state(r_recorder);
+	}
+	i.ends_epoch = false;
+	i.stats.rays = 0;
+	if (!i.converged) {
+		i.light_frame(r_recorder);
+	}
+}
+
+void Sdfgi::after_frame() {
+	Impl &i = *impl;
+	if (!i.ends_epoch || i.world == nullptr) {
+		return;
+	}
+	const std::vector<shader::SdfgiStatistics> statistics = i.device.read_back_buffer<shader::SdfgiStatistics>(i.statistics);
+	const std::vector<shader::CascadeCounts> counts = i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle());
+	i.stats.rays = statistics[0].rays;
+	i.stats.surface_cells = 0;
+	i.stats.surface_records = 0;
+	for (uint32_t c = 0; c < i.settings.cascades; c++) {
+		i.stats.surface_cells += counts[c].cells;
+		i.stats.surface_records += counts[c].records;
+		if (counts[c].cells > i.world->parameters().cell_capacity || counts[c].records > i.world->parameters().record_capacity) {
+			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
+		}
+	}
+	const uint32_t epochs = i.frame / i.settings.frames_to_converge;
+	i.converged = epochs >= 2 && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || epochs >= MAX_EPOCHS);
+	i.stats.converged = i.converged;
+	i.ends_epoch = false;
+}
+
+void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
+	const shader::GatherConstants constants = { .world_from_clip = p_inputs.world_from_clip, .camera_m = p_inputs.camera_position_m, .width = p_inputs.width, .height = p_inputs.height, .view = 0 };
+	ComputePass pass = r_recorder.compute("sdfgi.gather_gi", Shader::GATHER_GI);
+	bind_gi_sampling(pass, impl->pass_inputs());
+	pass.read(20, p_inputs.depth).read(21, p_inputs.normal_roughness).write(22, p_inputs.irradiance).write(23, p_inputs.radiance).constants(constants).dispatch_threads(p_inputs.width, p_inputs.height);
+}
+
+void Sdfgi::bind_sampling(RenderPass &r_pass) const {
+	bind_gi_sampling(r_pass, impl->pass_inputs());
+}
+
+std::vector<std::string> Sdfgi::debug_views() {
+	std::vector<std::string> names;
+	for (const DebugView &view : DEBUG_VIEWS) {
+		names.push_back(view.name);
+	}
+	return names;
+}
+
+bool Sdfgi::draw_debug_view(PassRecorder &r_recorder, const std::string &p_view, const GiGatherInputs &p_inputs, TextureHandle p_target) {
+	const DebugView *view = std::find_if(std::begin(DEBUG_VIEWS), std::end(DEBUG_VIEWS), [&](const DebugView &p_candidate) { return p_view == p_candidate.name; });
+	if (view == std::end(DEBUG_VIEWS)) {
+		return false;
+	}
+	const shader::GatherConstants constants = { .world_from_clip = p_inputs.world_from_clip, .camera_m = p_inputs.camera_position_m, .width = p_inputs.width, .height = p_inputs.height, .view = view->number };
+	ComputePass pass = r_recorder.compute("sdfgi.debug_gi", Shader::DEBUG_GI);
+	bind_gi_sampling(pass, impl->pass_inputs());
+	pass.write(20, p_target).read(21, p_inputs.depth).constants(constants).dispatch_threads(p_inputs.width, p_inputs.height);
+	return true;
+}
+
+GiStats Sdfgi::stats() const {
+	return impl->stats;
+}
+
+} // namespace lucent

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// SDFGI's own passes in execution order; the world's build passes are in gi/world/gi_world.cpp.
+
+#include "servers/rendering/device/pass_recorder.h"
+#include "servers/rendering/gi/sdfgi/sdfgi_io.h"
+#include "servers/rendering/gi/world/gi_world.h"
+
+namespace lucent {
+
+// What the passes share. Handles of one frame.
+struct SdfgiPassInputs {
+	const GiWorld &world;
+	BufferHandle probe_params; // uniform ProbeParams
+	BufferHandle probe_places;
+	TextureHandle radiance_atlas;
+	TextureHandle irradiance_atlas;
+	SamplerHandle probe_sampler;
+	TextureHandle sky;
+	BufferHandle lights;
+	BufferHandle statistics;
+	uint32_t probes_in_cascade = 0;
+	uint32_t probe_rays = 0;
+};
+
+void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
+void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants);
+void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
+void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
+
+// Binds what gi_sample_inc.glsl declares.
+template <typename Pass>
+void bind_gi_sampling(Pass &r_pass, const SdfgiPassInputs &p_in) {
+	p_in.world.bind_light(r_pass, p_in.sky);
+	r_pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_IRRADIANCE, p_in.irradiance_atlas).read(GI_PROBE_RADIANCE, p_in.radiance_atlas).read(GI_PROBE_OFFSETS, p_in.probe_places).sampler(GI_PROBE_SAMPLER, p_in.probe_sampler);
+}
+
+} // namespace lucent

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Traces the probes of one cascade, one ray a lane. A probe's octahedral radiance has one stratum a texel; each frame takes the
+// next `rays` of them, each ray is jittered within its texel and goes into the texel's running mean.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/sdfgi/probes_inc.glsl"
+#include "servers/rendering/gi/world/surface_light_inc.glsl"
+#include "servers/rendering/shaders/sampling_inc.glsl"
+
+#define TRACE_PROBES_PLACES 20
+#define TRACE_PROBES_RADIANCE 21
+#define TRACE_PROBES_STATISTICS 22
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = TRACE_PROBES_PLACES, scalar) readonly buffer PlacesBlock {
+	ProbePlace places[];
+};
+layout(set = 0, binding = TRACE_PROBES_RADIANCE, rgba16f) uniform image2D radiance_atlas;
+layout(set = 0, binding = TRACE_PROBES_STATISTICS, scalar) buffer StatisticsBlock {
+	SdfgiStatistics statistics;
+};
+layout(push_constant, scalar) uniform TracePush {
+	TraceProbesConstants constants;
+};
+
+shared uint group_rays;
+
+void trace_ray(uint place, uint ray) {
+	uint index = constants.cascade * probes_in_cascade() + place;
+	ivec3 probe = probe_at_place(constants.cascade, place);
+	if (cell_in_hole(constants.cascade, probe * int(probe_params.spacing_cells))) {
+		return;
+	}
+	const uint TEXELS = PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS;
+	uint turn = probe_params.frame * probe_params.rays + ray;
+	uint texel_index = turn % TEXELS;
+	uint visit = turn / TEXELS;
+	ivec2 texel = ivec2(int(texel_index % PROBE_RADIANCE_TEXELS), int(texel_index / PROBE_RADIANCE_TEXELS));
+	ivec2 at = probe_tile(index, PROBE_RADIANCE_BORDERED_TEXELS) + 1 + texel;
+	if (!probe_is_free(places[index])) {
+		imageStore(radiance_atlas, at, vec4(0.0));
+		return;
+	}
+	uint seed = hash_uint(uint(probe.x) * 73856093u ^ hash_uint(uint(probe.y) * 19349663u ^ hash_uint(uint(probe.z) * 83492791u ^ texel_index)));
+	vec3 direction = direction_of_texel(texel, PROBE_RADIANCE_TEXELS, r2_point(visit % probe_params.average_frames, seed));
+	vec3 origin_m = probe_position_m(constants.cascade, probe, places[index]);
+	atomicAdd(group_rays, 1u);
+	WorldHit hit = trace_world(origin_m, direction, 1e6, constants.cascade);
+	vec3 radiance = hit.hit ? hit_radiance(hit, direction, true) : sky_radiance(direction);
+	vec3 mean = imageLoad(radiance_atlas, at).rgb;
+	float weight = 1.0 / float(min(visit, probe_params.average_frames - 1u) + 1u);
+	imageStore(radiance_atlas, at, vec4(min(mix(mean, radiance, weight), vec3(65000.0)), 1.0));
+}
+
+void main() {
+	if (gl_LocalInvocationIndex == 0u) {
+		group_rays = 0u;
+	}
+	barrier();
+	uint id = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+	uint place = id / probe_params.rays;
+	if (place < probes_in_cascade()) {
+		trace_ray(place, id % probe_params.rays);
+	}
+	barrier();
+	if (gl_LocalInvocationIndex == 0u && group_rays > 0u) {
+		atomicAdd(statistics.rays, group_rays);
+	}
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The list of emissive records that stand for themselves (outside of holes), with the running share of their power, by one work group.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/world/world_inc.glsl"
+#include "servers/rendering/gi/world/group_scan_inc.glsl"
+
+#define COLLECT_EMITTERS_COUNTS 20
+#define COLLECT_EMITTERS_LIST 21
+#define COLLECT_EMITTERS_COUNT 22
+
+layout(local_size_x = 256) in;
+layout(set = 0, binding = WORLD_CELLS, scalar) readonly buffer CellsBlock {
+	WorldCell cells[];
+};
+layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
+	uvec2 occupancy[];
+};
+layout(set = 0, binding = WORLD_BRICK_CELL_BASE, scalar) readonly buffer BrickCellBaseBlock {
+	uint brick_cell_base[];
+};
+layout(set = 0, binding = WORLD_RECORDS, scalar) readonly buffer RecordsBlock {
+	WorldRecord records[];
+};
+layout(set = 0, binding = COLLECT_EMITTERS_COUNTS, scalar) readonly buffer CountsBlock {
+	CascadeCounts counts[];
+};
+layout(set = 0, binding = COLLECT_EMITTERS_LIST, scalar) buffer EmittersBlock {
+	Emitter emitters[];
+};
+layout(set = 0, binding = COLLECT_EMITTERS_COUNT, scalar) writeonly buffer EmitterCountBlock {
+	uint emitter_count; // in the list
+	uint emitters_wanted;
+};
+
+// The area of the cell's face, seen along the record's normal, that holds set bits.
+float seen_area_m2(WorldRecord record) {
+	uint axis = record_face(record) >> 1;
+	uvec3 storage = storage_from_world_cell(record_world_cell(record));
+	uint brick = brick_of_cell(record_cascade(record), storage);
+	uvec2 bits = cells[brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage))].bits;
+	uint mask = 0u;
+	for (uint i = 0u; i < 64u; i++) {
+		if (bit_is_set(bits, i)) {
+			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
+			mask |= 1u << (s[(axis + 1u) % 3u] + 4u * s[(axis + 2u) % 3u]);
+		}
+	}
+	vec3 size = world.cascades[record_cascade(record)].cell_m;
+	float face_m2 = size[(axis + 1u) % 3u] * size[(axis + 2u) % 3u];
+	return face_m2 * float(bitCount(mask)) / 16.0 / max(abs(record_normal(record)[axis]), 0.2);
+}
+
+float emitter_power(WorldRecord record) {
+	if (record.emission == 0u || !record_has_start(record) || cell_in_hole(record_cascade(record), record_world_cell(record))) {
+		return 0.0;
+	}
+	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * seen_area_m2(record);
+}
+
+shared float group_power[256];
+
+void main() {
+	uint lane = gl_LocalInvocationIndex;
+	uint found = 0u;
+	float power = 0.0;
+	for (uint pass = 0u; pass < 2u; pass++) {
+		uint slot = pass == 0u ? 0u : scan_group(found);
+		float running = 0.0;
+		float total = 0.0;
+		if (pass == 1u) {
+			group_power[lane] = power;
+			barrier();
+			for (uint i = 0u; i < 256u; i++) {
+				running += i < lane ? group_power[i] : 0.0;
+				total += group_power[i];
+			}
+			if (lane == 0u) {
+				emitters_wanted = group_total;
+				emitter_count = min(group_total, uint(emitters.length()));
+			}
+		}
+		for (uint c = 0u; c < world.cascade_count; c++) {
+			uint count = min(counts[c].records, world.record_capacity);
+			uint each = (count + 255u) / 256u;
+			uint end = min(count, (lane + 1u) * each);
+			for (uint i = lane * each; i < end; i++) {
+				uint index = world.cascades[c].record_base + i;
+				float record_power = records[index].emission == 0u ? 0.0 : emitter_power(records[index]);
+				if (!(record_power > 0.0)) {
+					continue;
+				}
+				if (pass == 0u) {
+					found++;
+					power += record_power;
+				} else if (slot < uint(emitters.length())) {
+					running += record_power;
+					emitters[slot] = Emitter(index, running / total, record_power / total, seen_area_m2(records[index]));
+					slot++;
+				}
+			}
+		}
+	}
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "servers/rendering/gi/world/gi_world.h"
+
+namespace lucent {
+
+namespace {
+
+// Bindings that the build passes' shaders declare for themselves.
+constexpr uint32_t OUT_0 = 20;
+constexpr uint32_t OUT_1 = 21;
+constexpr uint32_t OUT_2 = 22;
+constexpr uint32_t OUT_3 = 23;
+constexpr uint32_t OUT_4 = 24;
+constexpr uint32_t VOXEL_SURFACES = 10;
+constexpr uint32_t VOXEL_POSITIONS = 11;
+constexpr uint32_t VOXEL_INDICES = 12;
+constexpr uint32_t VOXEL_INSTANCES = 13;
+constexpr uint32_t VOXEL_MATERIALS = 14;
+constexpr uint32_t VOXEL_ATTRIBUTES = 15;
+constexpr uint32_t VOXEL_TEXTURES = 16;
+constexpr uint32_t VOXEL_SAMPLER = 17;
+
+constexpr uint32_t EMITTER_CAPACITY = 16384;
+constexpr uint32_t STATE_BYTES = 4 * 12; // light_records.comp.glsl: four vec3 a record
+constexpr uint32_t LIGHT_BYTES = 16;
+
+} // namespace
+
+GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
+		device(p_device), world_desc(p_desc) {
+	const uint32_t bricks_axis = p_desc.grid_size / WORLD_BRICK_CELLS;
+	const uint32_t bricks = bricks_axis * bricks_axis * bricks_axis;
+	const uint32_t cell_count = p_desc.grid_size * p_desc.grid_size * p_desc.grid_size;
+	params.cascade_count = p_desc.cascades;
+	params.grid_size = p_desc.grid_size;
+	// An eighth of the grid: a room's walls take a tenth at most; doc/sdfgi.md, "Capacity".
+	params.cell_capacity = cell_count / 8;
+	params.record_capacity = cell_count / 6;
+	params.sky_scale = 1.0f;
+	params.hole_margin_cells = 8;
+	for (uint32_t i = 0; i < p_desc.cascades; i++) {
+		shader::GiCascade &cascade = params.cascades[i];
+		const float size = p_desc.min_cell_m * float(1u << i);
+		cascade.cell_m = Vector3(size, size / p_desc.y_multiplier, size);
+		cascade.brick_base = bricks * i;
+		cascade.cell_base = params.cell_capacity * i;
+		cascade.record_base = params.record_capacity * i;
+	}
+	const uint64_t n = p_desc.cascades;
+	params_buffer = make_buffer("gi_world.params", sizeof(shader::GiWorldParams), BUFFER_UNIFORM);
+	occupancy = make_buffer("gi_world.occupancy", n * bricks * 8);
+	brick_cell_base = make_buffer("gi_world.brick_cell_base", n * bricks * 4);
+	sdf = make_buffer("gi_world.sdf", n * cell_count);
+	cells = make_buffer("gi_world.cells", n * params.cell_capacity * sizeof(shader::WorldCell));
+	records = make_buffer("gi_world.records", n * params.record_capacity * sizeof(shader::WorldRecord));
+	record_light[0] = make_buffer("gi_world.record_light0", n * params.record_capacity * LIGHT_BYTES);
+	record_light[1] = make_buffer("gi_world.record_light1", n * params.record_capacity * LIGHT_BYTES);
+	record_state = make_buffer("gi_world.record_state", n * params.record_capacity * STATE_BYTES);
+	counts = make_buffer("gi_world.counts", WORLD_MAX_CASCADES * sizeof(shader::CascadeCounts));
+	emitters = make_buffer("gi_world.emitters", EMITTER_CAPACITY * sizeof(shader::Emitter));
+	emitter_count = make_buffer("gi_world.emitter_count", 8);
+	accumulators = make_buffer("gi_world.accumulators", uint64_t(params.record_capacity) * sizeof(shader::RecordAccumulator));
+	distance_scratch[0] = make_buffer("gi_world.distance_scratch0", uint64_t(cell_count) * 4);
+	distance_scratch[1] = make_buffer("gi_world.distance_scratch1", uint64_t(cell_count) * 4);
+	surfaces.resize(p_desc.cascades);
+	sky_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
+}
+
+OwnedBuffer GiWorld::make_buffer(const char *p_name, uint64_t p_size_bytes, uint32_t p_usage) {
+	bytes += p_size_bytes;
+	return device.create_buffer({ .size_bytes = p_size_bytes, .usage = p_usage, .name = p_name });
+}
+
+Vector3 GiWorld::cell_m(uint32_t p_cascade) const {
+	return params.cascades[p_cascade].cell_m;
+}
+
+void GiWorld::upload_params(PassRecorder &r_recorder) {
+	r_recorder.update_buffer(params_buffer, 0, std::as_bytes(std::span(&params, 1)));
+}
+
+void GiWorld::clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count) {
+	const shader::ClearWordsConstants constants = { .first = p_first, .count = p_count, .value = 0 };
+	r_recorder.compute(p_name, Shader::CLEAR_WORDS).write(0, p_buffer).constants(constants).dispatch_groups(std::min(4096u, (p_count + 63) / 64));
+}
+
+// Surfaces whose box meets the cascade, with a running triangle count of their own. Returns their number.
+uint32_t GiWorld::cull_surfaces(const GiSceneView &p_scene, uint32_t p_cascade, uint32_t &r_triangles) {
+	const shader::GiCascade &cascade = params.cascades[p_cascade];
+	const Vector3 low = Vector3(cascade.origin_cells) * cascade.cell_m;
+	const AABB box = { low, low + float(world_desc.grid_size) * cascade.cell_m };
+	std::vector<shader::GiSurface> list;
+	r_triangles = 0;
+	for (size_t i = 0; i < p_scene.gi_surfaces.size(); i++) {
+		if (!p_scene.gi_surface_boxes[i].intersects(box)) {
+			continue;
+		}
+		shader::GiSurface surface = p_scene.gi_surfaces[i];
+		const uint32_t end = i + 1 < p_scene.gi_surfaces.size() ? p_scene.gi_surfaces[i + 1].first_triangle : p_scene.gi_triangle_count;
+		const uint32_t triangles = end - surface.first_triangle;
+		surface.first_triangle = r_triangles;
+		r_triangles += triangles;
+		list.push_back(surface);
+	}
+	if (!list.empty()) {
+		surfaces[p_cascade] = device.create_buffer({ .size_bytes = list.size() * sizeof(shader::GiSurface), .name = "gi_world.surfaces" });
+		device.upload_buffer(surfaces[p_cascade], list);
+	}
+	return uint32_t(list.size());
+}
+
+void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_scene, uint32_t p_cascade) {
+	const shader::GiCascade &cascade = params.cascades[p_cascade];
+	const uint32_t bricks_axis = world_desc.grid_size / WORLD_BRICK_CELLS;
+	const uint32_t bricks = bricks_axis * bricks_axis * bricks_axis;
+	shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0 };
+	constants.surface_count = cull_surfaces(p_scene, p_cascade, constants.triangle_count);
+	clear_words(r_recorder, "gi_world.clear_occupancy", occupancy, cascade.brick_base * 2, bricks * 2);
+	clear_words(r_recorder, "gi_world.clear_cells", cells, cascade.cell_base * 3, params.cell_capacity * 3);
+	clear_words(r_recorder, "gi_world.clear_accumulators", accumulators, 0, params.record_capacity * sizeof(shader::RecordAccumulator) / 4);
+
+	// 32768 groups of 64 triangles a row.
+	const uint32_t groups = (constants.triangle_count + 63) / 64;
+	const uint32_t rows = (groups + 32767) / 32768;
+	const auto voxelize = [&](const char *p_name, Shader p_shader, bool p_materials) {
+		ComputePass pass = r_recorder.compute(p_name, p_shader);
+		pass.uniform(WORLD_PARAMS, params_buffer).read(VOXEL_SURFACES, surfaces[p_cascade]).read(VOXEL_POSITIONS, p_scene.positions).read(VOXEL_INDICES, p_scene.indices).read(VOXEL_INSTANCES, p_scene.instances).constants(constants);
+		if (p_materials) {
+			pass.read(VOXEL_MATERIALS, p_scene.materials).read(VOXEL_ATTRIBUTES, p_scene.attributes).read(VOXEL_TEXTURES, p_scene.gi_textures).sampler(VOXEL_SAMPLER, p_scene.gi_sampler);
+			pass.read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
+		}
+		return pass;
+	};
+	if (groups > 0) {
+		voxelize("gi_world.mark_cells", Shader::MARK_CELLS, false).read_write(WORLD_OCCUPANCY, occupancy).dispatch_groups(std::min(groups, 32768u), rows);
+	}
+	r_recorder.compute("gi_world.allocate_cells", Shader::ALLOCATE_CELLS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).write(OUT_0, brick_cell_base).read_write(OUT_1, counts).constants(constants).dispatch_groups(1);
+	if (groups > 0) {
+		voxelize("gi_world.voxelize_cells", Shader::VOXELIZE_CELLS, true).read_write(OUT_0, cells).dispatch_groups(std::min(groups, 32768u), rows);
+	}
+	r_recorder.compute("gi_world.allocate_records", Shader::ALLOCATE_RECORDS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base).read_write(OUT_0, counts).read_write(OUT_1, cells).read_write(OUT_2, records).constants(constants).dispatch_groups(1);
+	if (groups > 0) {
+		voxelize("gi_world.accumulate_records", Shader::ACCUMULATE_RECORDS, true).read(WORLD_CELLS, cells).read_write(OUT_0, accumulators).dispatch_groups(std::min(groups, 32768u), rows);
+	}
+	build_sdf(r_recorder, p_cascade);
+	ComputePass resolve = r_recorder.compute("gi_world.resolve_records", Shader::RESOLVE_RECORDS);
+	bind_trace(resolve);
+	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).write(OUT_4, record_state).constants(constants).dispatch_groups(1024);
+}
+
+void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
+	static constexpr const char *NAMES[] = { "gi_world.build_sdf_x", "gi_world.build_sdf_y", "gi_world.build_sdf_z" };
+	const uint32_t n = world_desc.grid_size;
+	for (uint32_t axis = 0; axis < 3; axis++) {
+		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
+		r_recorder.compute(NAMES[axis], Shader::BUILD_SDF).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, distance_scratch[(axis & 1) ^ 1]).write(OUT_1, distance_scratch[axis & 1]).write(OUT_2, sdf).constants(constants).dispatch_threads(n, n, n);
+	}
+}
+
+void GiWorld::collect_emitters(PassRecorder &r_recorder) {
+	r_recorder.compute("gi_world.collect_emitters", Shader::COLLECT_EMITTERS)
+			.uniform(WORLD_PARAMS, params_buffer)
+			.read(WORLD_OCCUPANCY, occupancy)
+			.read(WORLD_BRICK_CELL_BASE, brick_cell_base)
+			.read(WORLD_CELLS, cells)
+			.read(WORLD_RECORDS, records)
+			.read(OUT_0, counts)
+			.read_write(OUT_1, emitters)
+			.write(OUT_2, emitter_count)
+			.dispatch_groups(1);
+}
+
+void GiWorld::clear_record_state(PassRecorder &r_recorder) {
+	clear_words(r_recorder, "gi_world.clear_state", record_state, 0, uint32_t(record_state.is_valid() ? uint64_t(params.cascade_count) * params.record_capacity * STATE_BYTES / 4 : 0));
+}
+
+} // namespace lucent

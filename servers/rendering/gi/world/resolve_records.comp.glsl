@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Sums to means: each record's albedo, emission, normal, centroid, and the free point that its rays start from.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/world/trace_world_inc.glsl"
+
+#define RESOLVE_RECORDS_ACCUMULATORS 20
+#define RESOLVE_RECORDS_COUNTS 21
+#define RESOLVE_RECORDS_RECORDS 22
+#define RESOLVE_RECORDS_LIGHT 23
+#define RESOLVE_RECORDS_STATE 24
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = RESOLVE_RECORDS_ACCUMULATORS, scalar) readonly buffer AccumulatorsBlock {
+	RecordAccumulator accumulators[];
+};
+layout(set = 0, binding = RESOLVE_RECORDS_COUNTS, scalar) readonly buffer CountsBlock {
+	CascadeCounts counts[];
+};
+layout(set = 0, binding = RESOLVE_RECORDS_RECORDS, scalar) buffer RecordsBlock {
+	WorldRecord records[];
+};
+layout(set = 0, binding = RESOLVE_RECORDS_LIGHT, scalar) writeonly buffer RecordLightBlock {
+	uvec4 record_light[];
+};
+layout(set = 0, binding = RESOLVE_RECORDS_STATE, scalar) writeonly buffer RecordStateBlock {
+	vec3 record_state[]; // four a record
+};
+layout(push_constant, scalar) uniform ResolvePush {
+	VoxelizeConstants constants;
+};
+
+// Columns of sub-voxels along the face's axis that hold a set bit: what of the cell's face a ray sees, of 16.
+uint seen_columns(uvec2 bits, uint axis) {
+	uint mask = 0u;
+	for (uint i = 0u; i < 64u; i++) {
+		if (bit_is_set(bits, i)) {
+			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
+			mask |= 1u << (s[(axis + 1u) % 3u] + 4u * s[(axis + 2u) % 3u]);
+		}
+	}
+	return uint(bitCount(mask));
+}
+
+// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels.
+uint find_start(uint cascade, vec3 position_m, vec3 normal) {
+	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
+	for (uint i = 3u; i < 29u; i++) {
+		if (!sub_voxel_is_solid(cascade, position_m + normal * (float(i) * step_m))) {
+			// A little further, so that the point isn't on the solid's face; still in the sub-voxel or the next one.
+			uint further = i + 1u;
+			return sub_voxel_is_solid(cascade, position_m + normal * (float(further) * step_m)) ? i : further;
+		}
+	}
+	return 0u;
+}
+
+void main() {
+	GiCascade cascade = world.cascades[constants.cascade];
+	uint count = min(counts[constants.cascade].records, world.record_capacity);
+	uint stride = gl_NumWorkGroups.x * 64u;
+	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
+		uint index = cascade.record_base + i;
+		WorldRecord record = records[index];
+		RecordAccumulator sums = accumulators[i];
+		uint axis = record_face(record) >> 1;
+		float area = max(float(sums.area), 1.0) / WORLD_FIXED_AREA;
+		vec3 area_vector = vec3(sums.normal) / WORLD_FIXED_AREA;
+		vec3 normal = dot(area_vector, area_vector) > 1e-16 ? normalize(area_vector / cascade.cell_m) : vec3(0.0);
+		if (normal == vec3(0.0) || face_from_normal(normal) != record_face(record)) {
+			normal = vec3(0.0);
+			normal[axis] = (record_face(record) & 1u) == 0u ? 1.0 : -1.0;
+		}
+		vec3 center = vec3(sums.position) / max(float(sums.area), 1.0);
+		ivec3 cell = record_world_cell(record);
+		uvec2 bits = world_cells[find_cell(constants.cascade, storage_from_world_cell(cell))].bits;
+		// Rays see whole sub-voxels: spread the emission over what they see, so that the flux stays.
+		float seen = float(max(seen_columns(bits, axis), 1u)) / 16.0;
+		float coverage = min(1.0, abs(area_vector[axis]) / seen);
+		uvec3 p = uvec3(clamp(center, 0.0, 1.0) * 511.0 + 0.5);
+		record.position = p.x | (p.y << 9) | (p.z << 18);
+		record.normal = packSnorm2x16(octahedral_from_direction(normal));
+		record.albedo = unorm111110_from_color(vec3(sums.albedo) / max(float(sums.area), 1.0));
+		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area * coverage);
+		record.position |= find_start(constants.cascade, record_position_m(record), record_normal(record)) << 27;
+		records[index] = record;
+		record_light[index] = uvec4(0u);
+		for (uint k = 0u; k < 4u; k++) {
+			record_state[index * 4u + k] = vec3(0.0);
+		}
+	}
+}

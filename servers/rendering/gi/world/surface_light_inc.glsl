@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The light that leaves a hit of trace_world.
+#ifndef SURFACE_LIGHT_INC
+#define SURFACE_LIGHT_INC
+#include "servers/rendering/gi/world/trace_world_inc.glsl"
+
+layout(set = 0, binding = WORLD_BINDING(WORLD_RECORDS), scalar) readonly buffer WorldRecordsBlock {
+	WorldRecord world_records[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly buffer WorldRecordLightBlock {
+	uvec4 world_record_light[]; // xy: all light, zw: all but lamps'
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_SKY)) uniform texture2D world_sky;
+layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler world_sky_sampler;
+
+// Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up.
+bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
+	vec3 scale = float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
+	vec3 a = from_m * scale;
+	vec3 way = to_m * scale - a;
+	way = mix(way, vec3(1e-6), lessThan(abs(way), vec3(1e-6)));
+	vec3 inverse = 1.0 / way;
+	ivec3 s = ivec3(floor(a));
+	ivec3 direction = ivec3(sign(way));
+	vec3 t_next = (vec3(s) + step(vec3(0.0), way) - a) * inverse;
+	ivec3 cell = ivec3(0x7FFFFFFF);
+	uvec2 bits = uvec2(0u);
+	for (uint i = 0u; i < 48u; i++) {
+		ivec3 now = s >> 2;
+		if (now != cell) {
+			cell = now;
+			uint index = find_cell(cascade, storage_from_world_cell(cell));
+			bits = index == WORLD_NO_CELL ? uvec2(0u) : (index == WORLD_LOST_CELL ? uvec2(0xFFFFFFFFu) : world_cells[index].bits);
+		}
+		uvec3 local = uvec3(s) & 3u;
+		if (bit_is_set(bits, local.x + 4u * local.y + 16u * local.z)) {
+			return false;
+		}
+		if (min(t_next.x, min(t_next.y, t_next.z)) >= 1.0) {
+			return true;
+		}
+		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
+			t_next.x += abs(inverse.x);
+			s.x += direction.x;
+		} else if (t_next.y <= t_next.z) {
+			t_next.y += abs(inverse.y);
+			s.y += direction.y;
+		} else {
+			t_next.z += abs(inverse.z);
+			s.z += direction.z;
+		}
+	}
+	return false;
+}
+
+// Two surfaces of the cell face opposite ways: a wall thinner than the cell, whose other records may lie on either side.
+bool cell_is_split(uint faces) {
+	return (faces & (faces >> 1) & 21u) != 0u;
+}
+
+vec3 sky_radiance(vec3 direction) {
+	vec2 uv = octahedral_from_direction(direction) * 0.5 + 0.5;
+	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
+}
+
+// Radiance that leaves the hit against `direction`, from the records that face the ray; black behind one-sided surfaces.
+vec3 hit_radiance(WorldHit hit, vec3 direction, bool with_emission) {
+	if (hit.cell >= WORLD_LOST_CELL) {
+		return vec3(0.0);
+	}
+	uint packed_records = world_cells[hit.cell].records;
+	uint faces = packed_records & 63u;
+	uint record_end = world.cascades[hit.cascade].record_base + world.record_capacity;
+	bool split = cell_is_split(faces);
+	float sub_voxel_m = sub_voxel_along_m(hit.cascade, direction);
+	vec3 sum = vec3(0.0);
+	float weight_sum = 0.0;
+	uint index = packed_records >> 6;
+	for (; faces != 0u && index < record_end; faces &= faces - 1u, index++) {
+		WorldRecord record = world_records[index];
+		vec3 normal = record_normal(record);
+		float facing = -dot(normal, direction);
+		if (facing <= 0.0) {
+			continue;
+		}
+		float off_plane = abs(dot(hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(hit.cascade, normal);
+		float weight = facing / (0.25 + off_plane * off_plane);
+		vec4 light = vec4_from_half4(world_record_light[index].xy);
+		// A record without a start, or on the other side of a thin wall, shows black here.
+		bool reached = record_has_start(record);
+		if (reached && split) {
+			reached = short_way_is_free(hit.cascade, hit.position_m - direction * (0.25 * sub_voxel_m), record_start_m(record));
+		}
+		vec3 radiance = reached ? light.rgb * color_from_unorm111110(record.albedo) : vec3(0.0);
+		if (with_emission) {
+			radiance += color_from_rgb9e5(record.emission);
+		}
+		sum += weight * radiance;
+		weight_sum += weight;
+	}
+	return weight_sum > 0.0 ? sum / weight_sum : vec3(0.0);
+}
+
+#endif

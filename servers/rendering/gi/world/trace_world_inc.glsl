@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// Rays through the world: sphere steps by the distance field through empty cells, exact stepping through stored cells and
+// their sub-voxels. Every point of a ray is looked up in the finest cascade that holds it.
+//
+// No leak: triangles set every sub-voxel that they touch, so any path through face-neighbouring sub-voxels that crosses a
+// surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space.
+#ifndef TRACE_WORLD_INC
+#define TRACE_WORLD_INC
+#include "servers/rendering/gi/world/world_inc.glsl"
+
+layout(set = 0, binding = WORLD_BINDING(WORLD_OCCUPANCY), scalar) readonly buffer WorldOccupancyBlock {
+	uvec2 world_occupancy[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_BRICK_CELL_BASE), scalar) readonly buffer WorldBrickCellBaseBlock {
+	uint world_brick_cell_base[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_CELLS), scalar) readonly buffer WorldCellsBlock {
+	WorldCell world_cells[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer WorldSdfBlock {
+	uint world_sdf[];
+};
+
+#define WORLD_NO_CELL 0xFFFFFFFFu
+// A stored cell without memory for its content (capacity reached): solid and black.
+#define WORLD_LOST_CELL 0xFFFFFFFEu
+#define TRACE_MAX_STEPS 768
+
+uint find_cell(uint cascade, uvec3 storage) {
+	uint brick = brick_of_cell(cascade, storage);
+	uvec2 mask = world_occupancy[brick];
+	uint bit = bit_of_cell(storage);
+	if (!bit_is_set(mask, bit)) {
+		return WORLD_NO_CELL;
+	}
+	uint index = world_brick_cell_base[brick] + bits_below(mask, bit);
+	return index < world.cascades[cascade].cell_base + world.cell_capacity ? index : WORLD_LOST_CELL;
+}
+
+// Distance in cells to the nearest stored cell's centre, rounded down to an eighth.
+float sdf_cells(uint cascade, uvec3 storage) {
+	uint bit = bit_of_cell(storage);
+	uint word = world_sdf[brick_of_cell(cascade, storage) * 16u + (bit >> 2)];
+	return float((word >> ((bit & 3u) * 8u)) & 255u) / WORLD_SDF_SCALE;
+}
+
+struct WorldHit {
+	bool hit;
+	uint cascade;
+	uint cell; // index, or WORLD_LOST_CELL
+	ivec3 world_cell;
+	float t_m;
+	vec3 position_m; // where the ray enters the solid sub-voxel
+};
+
+bool cascade_holds(uint cascade, vec3 position_m) {
+	GiCascade c = world.cascades[cascade];
+	vec3 p = position_m / c.cell_m - vec3(c.origin_cells);
+	return all(greaterThanEqual(p, vec3(0.0))) && all(lessThan(p, vec3(float(world.grid_size))));
+}
+
+uint finest_cascade(vec3 position_m) {
+	for (uint i = 0u; i < world.cascade_count; i++) {
+		if (cascade_holds(i, position_m)) {
+			return i;
+		}
+	}
+	return world.cascade_count;
+}
+
+bool sub_voxel_is_solid(uint cascade, vec3 position_m) {
+	vec3 p = position_m / world.cascades[cascade].cell_m;
+	ivec3 cell = ivec3(floor(p));
+	uint index = find_cell(cascade, storage_from_world_cell(cell));
+	if (index == WORLD_NO_CELL) {
+		return false;
+	}
+	if (index == WORLD_LOST_CELL) {
+		return true;
+	}
+	uvec3 s = uvec3(clamp(floor((p - vec3(cell)) * float(WORLD_SUB_VOXELS)), vec3(0.0), vec3(3.0)));
+	return bit_is_set(world_cells[index].bits, s.x + 4u * s.y + 16u * s.z);
+}
+
+// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). Distances are along `rate` (sub-voxels per
+// metre). Returns the way to the first set bit, or a negative number.
+float trace_sub_voxels(uvec2 bits, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
+	ivec3 s = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
+	ivec3 direction = ivec3(sign(rate));
+	vec3 t_next = (vec3(s) + step(vec3(0.0), rate) - entry) * inverse_rate;
+	float t = 0.0;
+	for (uint i = 0u; i < 12u; i++) {
+		if (bit_is_set(bits, uint(s.x + 4 * s.y + 16 * s.z))) {
+			return t;
+		}
+		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
+			t = t_next.x;
+			t_next.x += abs(inverse_rate.x);
+			s.x += direction.x;
+		} else if (t_next.y <= t_next.z) {
+			t = t_next.y;
+			t_next.y += abs(inverse_rate.y);
+			s.y += direction.y;
+		} else {
+			t = t_next.z;
+			t_next.z += abs(inverse_rate.z);
+			s.z += direction.z;
+		}
+		if (any(lessThan(s, ivec3(0))) || any(greaterThan(s, ivec3(3))) || t > t_max) {
+			return -1.0;
+		}
+	}
+	return -1.0;
+}
+
+// The ray's way through one cascade's box, in metres.
+vec2 cascade_interval(uint cascade, vec3 origin_m, vec3 inverse_direction) {
+	GiCascade c = world.cascades[cascade];
+	vec3 low = vec3(c.origin_cells) * c.cell_m;
+	vec3 high = vec3(c.origin_cells + int(world.grid_size)) * c.cell_m;
+	vec3 a = (low - origin_m) * inverse_direction;
+	vec3 b = (high - origin_m) * inverse_direction;
+	vec3 near = min(a, b);
+	vec3 far = max(a, b);
+	return vec2(max(near.x, max(near.y, near.z)), min(far.x, min(far.y, far.z)));
+}
+
+// Traces from origin_m along the unit vector `direction` up to t_max_m. `cascade` is where the origin is looked up first: the
+// finest that holds it, unless the caller wants a coarser one.
+WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_cascade) {
+	WorldHit result;
+	result.hit = false;
+	result.t_m = t_max_m;
+	result.cell = WORLD_NO_CELL;
+	result.cascade = first_cascade;
+	result.world_cell = ivec3(0);
+	result.position_m = origin_m;
+	// No zero components: every division below is finite.
+	vec3 d = mix(direction, vec3(1e-7), lessThan(abs(direction), vec3(1e-7)));
+	vec3 inverse_direction = 1.0 / d;
+
+	uint cascade = first_cascade;
+	float t = 0.0;
+	int steps = 0;
+	// Each turn of the outer loop is a stretch within one cascade.
+	for (uint stretch = 0u; stretch < 2u * WORLD_MAX_CASCADES && cascade < world.cascade_count; stretch++) {
+		GiCascade c = world.cascades[cascade];
+		vec2 interval = cascade_interval(cascade, origin_m, inverse_direction);
+		float t_end = min(interval.y, t_max_m);
+		uint next_cascade = cascade + 1u;
+		if (cascade > 0u) {
+			vec2 finer = cascade_interval(cascade - 1u, origin_m, inverse_direction);
+			if (finer.x < finer.y && finer.x > t && finer.x < t_end) {
+				t_end = finer.x;
+				next_cascade = cascade - 1u;
+			}
+		}
+		vec3 rate = d / c.cell_m; // cells per metre
+		vec3 inverse_rate = c.cell_m * inverse_direction;
+		float inverse_speed = 1.0 / length(rate);
+		vec3 o = origin_m / c.cell_m - vec3(c.origin_cells);
+		ivec3 direction_sign = ivec3(sign(rate));
+		int size = int(world.grid_size);
+		ivec3 cell = clamp(ivec3(floor(o + rate * t)), ivec3(0), ivec3(size - 1));
+		vec3 t_next = (vec3(cell) + step(vec3(0.0), rate) - o) * inverse_rate;
+
+		for (; steps < TRACE_MAX_STEPS && t < t_end; steps++) {
+			uvec3 storage = storage_from_world_cell(cell + c.origin_cells);
+			float distance = sdf_cells(cascade, storage);
+			float t_leave = min(t_next.x, min(t_next.y, t_next.z));
+			if (distance < 0.5) {
+				uint index = find_cell(cascade, storage);
+				if (index < WORLD_LOST_CELL) {
+					vec3 entry = (o + rate * t - vec3(cell)) * float(WORLD_SUB_VOXELS);
+					float way = trace_sub_voxels(world_cells[index].bits, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+					if (way >= 0.0) {
+						result.hit = true;
+						result.t_m = t + way;
+					}
+				} else if (index == WORLD_LOST_CELL) {
+					result.hit = true;
+					result.t_m = t;
+				}
+				if (result.hit) {
+					result.cascade = cascade;
+					result.cell = index;
+					result.world_cell = cell + c.origin_cells;
+					result.position_m = origin_m + direction * result.t_m;
+					return result;
+				}
+			} else {
+				// The sphere around the point that no stored cell's box can reach: 0.8661 is half a cell's diagonal.
+				vec3 p = o + rate * t;
+				float reach = distance - 0.8661 - length(p - vec3(cell) - 0.5);
+				float t_sphere = t + reach * inverse_speed;
+				if (t_sphere > t_leave) {
+					t = t_sphere;
+					cell = ivec3(floor(o + rate * t));
+					if (t >= t_end || any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(size)))) {
+						break;
+					}
+					t_next = (vec3(cell) + step(vec3(0.0), rate) - o) * inverse_rate;
+					continue;
+				}
+			}
+			t = max(t, t_leave);
+			if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
+				t_next.x += abs(inverse_rate.x);
+				cell.x += direction_sign.x;
+			} else if (t_next.y <= t_next.z) {
+				t_next.y += abs(inverse_rate.y);
+				cell.y += direction_sign.y;
+			} else {
+				t_next.z += abs(inverse_rate.z);
+				cell.z += direction_sign.z;
+			}
+			if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(size)))) {
+				break;
+			}
+		}
+		if (t >= t_max_m || steps >= TRACE_MAX_STEPS) {
+			break;
+		}
+		t = max(t, t_end);
+		cascade = next_cascade;
+	}
+	return result;
+}
+
+// Nothing solid between two points.
+bool world_is_free(vec3 from_m, vec3 to_m, uint first_cascade) {
+	vec3 way = to_m - from_m;
+	float distance = length(way);
+	if (distance < 1e-6) {
+		return true;
+	}
+	return !trace_world(from_m, way / distance, distance, first_cascade).hit;
+}
+
+#endif

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Walks every cell of a cascade that a triangle's plane passes within its box. A work group takes 64 triangles and shares their
+// columns of cells, so that one large triangle doesn't hold up a lane. The including shader defines, before the inclusion,
+//   void visit_cell(VoxelTriangle triangle, ivec3 cell);   // cell: local, 0 .. grid_size - 1; called where the triangle touches it
+// and gets main().
+#ifndef VOXEL_TRIANGLE_INC
+#define VOXEL_TRIANGLE_INC
+#include "servers/rendering/gi/world/world_inc.glsl"
+#include "servers/rendering/shaders/scene_io.h"
+
+#define VOXEL_SURFACES 10
+#define VOXEL_POSITIONS 11
+#define VOXEL_INDICES 12
+#define VOXEL_INSTANCES 13
+#define VOXEL_MATERIALS 14
+#define VOXEL_ATTRIBUTES 15
+#define VOXEL_TEXTURES 16
+#define VOXEL_SAMPLER 17
+
+layout(set = 0, binding = VOXEL_SURFACES, scalar) readonly buffer SurfacesBlock {
+	GiSurface surfaces[];
+};
+layout(set = 0, binding = VOXEL_POSITIONS, scalar) readonly buffer PositionsBlock {
+	vec3 positions[];
+};
+layout(set = 0, binding = VOXEL_INDICES, scalar) readonly buffer IndicesBlock {
+	uint indices[];
+};
+layout(set = 0, binding = VOXEL_INSTANCES, scalar) readonly buffer InstancesBlock {
+	InstanceData instances[];
+};
+layout(push_constant, scalar) uniform VoxelizePush {
+	VoxelizeConstants constants;
+};
+
+struct VoxelTriangle {
+	vec3 v[3]; // cells, from the cascade's origin
+	uint surface;
+	uvec3 vertex; // indices of its vertices
+};
+
+// Does a triangle touch the box [low, low + size]? Schwarz and Seidel, "Fast Parallel Surface and Solid Voxelization on GPUs", 2010.
+struct TriangleBoxTest {
+	vec3 normal;
+	float plane_near;
+	float plane_far;
+	vec3 low;
+	vec3 high;
+	vec3 edge[9]; // xy of the edge's inward normal in its projection, z: offset; projections xy, yz, zx
+};
+
+void set_edge(inout TriangleBoxTest test, uint slot, vec2 a, vec2 b, float facing, vec2 size) {
+	vec2 e = b - a;
+	vec2 n = vec2(-e.y, e.x) * facing;
+	test.edge[slot] = vec3(n, -dot(n, a) + max(0.0, size.x * n.x) + max(0.0, size.y * n.y));
+}
+
+TriangleBoxTest make_box_test(vec3 v[3], float box_size, float touch) {
+	TriangleBoxTest test;
+	vec3 size = vec3(box_size + 2.0 * touch);
+	vec3 n = cross(v[1] - v[0], v[2] - v[0]);
+	test.normal = n;
+	vec3 corner = vec3(n.x > 0.0 ? size.x : 0.0, n.y > 0.0 ? size.y : 0.0, n.z > 0.0 ? size.z : 0.0);
+	test.plane_near = dot(n, corner - v[0]);
+	test.plane_far = dot(n, size - corner - v[0]);
+	test.low = min(v[0], min(v[1], v[2])) - size;
+	test.high = max(v[0], max(v[1], v[2]));
+	// A projection in which the triangle is a line decides nothing.
+	float tiny = 1e-6 * max(abs(n.x), max(abs(n.y), abs(n.z)));
+	vec3 facing = vec3(abs(n.x) > tiny ? sign(n.x) : 0.0, abs(n.y) > tiny ? sign(n.y) : 0.0, abs(n.z) > tiny ? sign(n.z) : 0.0);
+	for (uint i = 0u; i < 3u; i++) {
+		vec3 a = v[i];
+		vec3 b = v[(i + 1u) % 3u];
+		set_edge(test, i, a.xy, b.xy, facing.z, size.xy);
+		set_edge(test, 3u + i, a.yz, b.yz, facing.x, size.yz);
+		set_edge(test, 6u + i, a.zx, b.zx, facing.y, size.zx);
+	}
+	return test;
+}
+
+// low: the box's lowest corner less `touch`.
+bool touches_box(TriangleBoxTest test, vec3 low) {
+	if (any(lessThan(low, test.low)) || any(greaterThan(low, test.high))) {
+		return false;
+	}
+	float along = dot(test.normal, low);
+	if ((along + test.plane_near) * (along + test.plane_far) > 0.0) {
+		return false;
+	}
+	for (uint i = 0u; i < 3u; i++) {
+		if (dot(test.edge[i].xy, low.xy) + test.edge[i].z < 0.0 || dot(test.edge[3u + i].xy, low.yz) + test.edge[3u + i].z < 0.0 || dot(test.edge[6u + i].xy, low.zx) + test.edge[6u + i].z < 0.0) {
+			return false;
+		}
+	}
+	return true;
+}
+
+#define CELL_TOUCH (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
+
+vec3 world_from_local(InstanceData instance, vec3 p) {
+	vec4 h = vec4(p, 1.0);
+	return vec3(dot(instance.world_from_local[0], h), dot(instance.world_from_local[1], h), dot(instance.world_from_local[2], h));
+}
+
+// The last surface whose first triangle is at or before `triangle`.
+uint find_surface(uint triangle) {
+	uint low = 0u;
+	uint high = constants.surface_count - 1u;
+	for (uint i = 0u; i < 32u && low < high; i++) {
+		uint middle = (low + high + 1u) / 2u;
+		if (surfaces[middle].first_triangle <= triangle) {
+			low = middle;
+		} else {
+			high = middle - 1u;
+		}
+	}
+	return low;
+}
+
+VoxelTriangle load_triangle(uint triangle) {
+	VoxelTriangle result;
+	result.surface = find_surface(triangle);
+	GiSurface surface = surfaces[result.surface];
+	uint first = surface.first_index + (triangle - surface.first_triangle) * 3u;
+	GiCascade c = world.cascades[constants.cascade];
+	for (uint i = 0u; i < 3u; i++) {
+		result.vertex[i] = uint(int(indices[first + i]) + surface.vertex_offset);
+		// Divided first: the same in every cascade position, whatever the origin.
+		result.v[i] = world_from_local(instances[surface.instance], positions[result.vertex[i]]) / c.cell_m - vec3(c.origin_cells);
+	}
+	return result;
+}
+
+void visit_cell(VoxelTriangle triangle, ivec3 cell);
+
+layout(local_size_x = 64) in;
+
+shared VoxelTriangle group_triangles[64];
+shared ivec3 group_low[64];
+shared ivec3 group_size[64];
+shared uint group_end[64]; // running sum of columns
+
+uint main_axis(vec3 n) {
+	vec3 a = abs(n);
+	return a.x >= a.y && a.x >= a.z ? 0u : (a.y >= a.z ? 1u : 2u);
+}
+
+void visit_column(uint slot, uint column) {
+	VoxelTriangle triangle = group_triangles[slot];
+	vec3 n = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
+	uint k = main_axis(n);
+	uint u = (k + 1u) % 3u;
+	uint v = (k + 2u) % 3u;
+	ivec3 size = group_size[slot];
+	ivec3 cell = group_low[slot];
+	cell[u] += int(column) % size[u];
+	cell[v] += int(column) / size[u];
+	// The plane's depth over the column's square.
+	float d = dot(n, triangle.v[0]);
+	float center = (d - n[u] * (float(cell[u]) + 0.5) - n[v] * (float(cell[v]) + 0.5)) / n[k];
+	float spread = (abs(n[u]) + abs(n[v])) / abs(n[k]) * (0.5 + CELL_TOUCH) + 2.0 * CELL_TOUCH;
+	int low = max(group_low[slot][k], int(floor(center - spread)));
+	int high = min(group_low[slot][k] + size[k] - 1, int(floor(center + spread)));
+	TriangleBoxTest test = make_box_test(triangle.v, 1.0, CELL_TOUCH);
+	for (int w = low; w <= high; w++) {
+		cell[k] = w;
+		if (touches_box(test, vec3(cell) - CELL_TOUCH)) {
+			visit_cell(triangle, cell);
+		}
+	}
+}
+
+void main() {
+	uint lane = gl_LocalInvocationIndex;
+	uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + lane;
+	uint columns = 0u;
+	if (index < constants.triangle_count) {
+		VoxelTriangle triangle = load_triangle(index);
+		vec3 n = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
+		vec3 low = min(triangle.v[0], min(triangle.v[1], triangle.v[2])) - CELL_TOUCH;
+		vec3 high = max(triangle.v[0], max(triangle.v[1], triangle.v[2])) + CELL_TOUCH;
+		float size = float(world.grid_size);
+		// Written so that NaN fails.
+		if (dot(n, n) > 1e-24 && all(lessThan(low, vec3(size))) && all(greaterThan(high, vec3(0.0)))) {
+			ivec3 first = ivec3(clamp(floor(low), vec3(0.0), vec3(size - 1.0)));
+			ivec3 last = ivec3(clamp(floor(high), vec3(0.0), vec3(size - 1.0)));
+			group_triangles[lane] = triangle;
+			group_low[lane] = first;
+			group_size[lane] = last - first + 1;
+			uint k = main_axis(n);
+			columns = uint(group_size[lane][(k + 1u) % 3u] * group_size[lane][(k + 2u) % 3u]);
+		}
+	}
+	group_end[lane] = columns;
+	barrier();
+	for (uint step = 1u; step < 64u; step *= 2u) {
+		uint below = lane >= step ? group_end[lane - step] : 0u;
+		barrier();
+		group_end[lane] += below;
+		barrier();
+	}
+	uint total = group_end[63];
+	for (uint column = lane; column < total; column += 64u) {
+		uint slot = 0u;
+		for (uint half_size = 32u; half_size > 0u; half_size /= 2u) {
+			if (group_end[slot + half_size - 1u] <= column) {
+				slot += half_size;
+			}
+		}
+		uint before = slot > 0u ? group_end[slot - 1u] : 0u;
+		visit_column(slot, column - before);
+	}
+}
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Sets the sub-voxel bits and the face masks of stored cells.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/world/material_sample_inc.glsl"
+
+#define VOXELIZE_CELLS_WORDS 20
+
+layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
+	uvec2 occupancy[];
+};
+layout(set = 0, binding = WORLD_BRICK_CELL_BASE, scalar) readonly buffer BrickCellBaseBlock {
+	uint brick_cell_base[];
+};
+layout(set = 0, binding = VOXELIZE_CELLS_WORDS, scalar) buffer CellWordsBlock {
+	uint cell_words[]; // WorldCell as three words: bits, bits, records (here: the face mask only)
+};
+
+void visit_cell(VoxelTriangle triangle, ivec3 cell) {
+	uvec3 storage = storage_from_world_cell(cell + world.cascades[constants.cascade].origin_cells);
+	uint brick = brick_of_cell(constants.cascade, storage);
+	uint index = brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage));
+	if (index >= world.cascades[constants.cascade].cell_base + world.cell_capacity) {
+		return;
+	}
+	MaterialData material = materials[surfaces[triangle.surface].material];
+	bool alpha_tested = is_alpha_tested(material);
+	const float size = 1.0 / float(WORLD_SUB_VOXELS);
+	TriangleBoxTest test = make_box_test(triangle.v, size, CELL_TOUCH);
+	uvec2 bits = uvec2(0u);
+	for (uint i = 0u; i < 64u; i++) {
+		vec3 low = vec3(cell) + vec3(uvec3(i & 3u, (i >> 2) & 3u, i >> 4)) * size;
+		if (!touches_box(test, low - CELL_TOUCH)) {
+			continue;
+		}
+		if (alpha_tested) {
+			vec3 w = clamped_barycentric(triangle.v, low + 0.5 * size);
+			if (triangle_albedo(triangle, material, w).a < alpha_threshold(material)) {
+				continue;
+			}
+		}
+		if (i < 32u) {
+			bits.x |= 1u << i;
+		} else {
+			bits.y |= 1u << (i - 32u);
+		}
+	}
+	if ((bits.x | bits.y) == 0u) {
+		return;
+	}
+	vec3 n = world_normal_from_cells(constants.cascade, front_normal(triangle, material));
+	uint face = face_from_normal(n);
+	uint faces = 1u << face;
+	if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u) {
+		faces |= 1u << (face ^ 1u);
+	}
+	atomicOr(cell_words[index * 3u], bits.x);
+	atomicOr(cell_words[index * 3u + 1u], bits.y);
+	atomicOr(cell_words[index * 3u + 2u], faces);
+}

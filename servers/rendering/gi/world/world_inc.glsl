@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Addressing of the world's cells (world_io.h) and unpacking of its records. Needs no binding but WORLD_PARAMS.
+#ifndef WORLD_INC
+#define WORLD_INC
+#include "servers/rendering/gi/world/world_io.h"
+#include "servers/rendering/shaders/color_encoding_inc.glsl"
+#include "servers/rendering/shaders/octahedral_inc.glsl"
+
+#ifndef WORLD_BINDING
+#define WORLD_BINDING(m_index) m_index
+#endif
+
+layout(set = 0, binding = WORLD_BINDING(WORLD_PARAMS), scalar) uniform WorldParamsBlock {
+	GiWorldParams world;
+};
+
+// Brick index and bit of a cell given by wrapped storage coordinates.
+uint brick_of_cell(uint cascade, uvec3 storage) {
+	uint bricks = world.grid_size / WORLD_BRICK_CELLS;
+	uvec3 brick = storage >> 2;
+	return world.cascades[cascade].brick_base + (brick.z * bricks + brick.y) * bricks + brick.x;
+}
+uint bit_of_cell(uvec3 storage) {
+	uvec3 local = storage & 3u;
+	return local.x + 4u * local.y + 16u * local.z;
+}
+uvec3 storage_from_world_cell(ivec3 cell) {
+	return uvec3(cell & ivec3(int(world.grid_size) - 1));
+}
+// The world-fixed cell of a cascade's present window that lives at storage coordinates.
+ivec3 world_cell_from_storage(uint cascade, uvec3 storage) {
+	ivec3 origin = world.cascades[cascade].origin_cells;
+	return origin + ((ivec3(storage) - origin) & ivec3(int(world.grid_size) - 1));
+}
+uint bits_below(uvec2 mask, uint bit) {
+	return bit < 32u ? uint(bitCount(mask.x & ((1u << bit) - 1u))) : uint(bitCount(mask.x) + bitCount(mask.y & ((1u << (bit - 32u)) - 1u)));
+}
+bool bit_is_set(uvec2 mask, uint bit) {
+	return ((bit < 32u ? mask.x >> bit : mask.y >> (bit - 32u)) & 1u) != 0u;
+}
+
+uint face_from_normal(vec3 n) {
+	vec3 a = abs(n);
+	uint axis = a.x >= a.y && a.x >= a.z ? 0u : (a.y >= a.z ? 1u : 2u);
+	return axis * 2u + (n[axis] < 0.0 ? 1u : 0u);
+}
+
+uint record_cascade(WorldRecord record) {
+	return record.cell >> 27;
+}
+uint record_face(WorldRecord record) {
+	return (record.cell >> 24) & 7u;
+}
+ivec3 record_world_cell(WorldRecord record) {
+	uvec3 storage = uvec3(record.cell, record.cell >> 8, record.cell >> 16) & 255u;
+	return world_cell_from_storage(record_cascade(record), storage);
+}
+vec3 record_position_in_cell(WorldRecord record) {
+	return vec3(uvec3(record.position, record.position >> 9, record.position >> 18) & 511u) / 511.0;
+}
+vec3 record_position_m(WorldRecord record) {
+	return (vec3(record_world_cell(record)) + record_position_in_cell(record)) * world.cascades[record_cascade(record)].cell_m;
+}
+vec3 record_normal(WorldRecord record) {
+	return direction_from_octahedral(unpackSnorm2x16(record.normal));
+}
+// The step in metres along a direction that certainly leaves a sub-voxel through a face of the direction's main axis.
+float sub_voxel_along_m(uint cascade, vec3 direction) {
+	vec3 rate = abs(direction) * float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
+	return 1.0 / max(rate.x, max(rate.y, rate.z));
+}
+bool record_has_start(WorldRecord record) {
+	return (record.position >> 27) != 0u;
+}
+// The point in the free space in front of the record that its rays start from.
+vec3 record_start_m(WorldRecord record) {
+	vec3 n = record_normal(record);
+	return record_position_m(record) + n * (float(record.position >> 27) * 0.25 * sub_voxel_along_m(record_cascade(record), n));
+}
+
+// The cell is deep inside the next finer cascade, whose cells stand for it.
+bool cell_in_hole(uint cascade, ivec3 cell) {
+	if (cascade == 0u) {
+		return false;
+	}
+	ivec3 low = (world.cascades[cascade - 1u].origin_cells >> 1) + world.hole_margin_cells;
+	ivec3 high = ((world.cascades[cascade - 1u].origin_cells + int(world.grid_size)) >> 1) - world.hole_margin_cells;
+	return all(greaterThanEqual(cell, low)) && all(lessThan(cell, high));
+}
+
+#endif

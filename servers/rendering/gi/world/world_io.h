@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The lit world that every GI technique shares: nested grids ("cascades") of cells around the camera. Shared by C++ and GLSL.
+//
+// Addressing. Cascade c has grid_size cells an axis; a cell is named by its world-fixed integer coordinates
+// floor(position / cell_size). Storage is wrapped: cell w lives at w & (grid_size - 1), so a cascade that moves keeps what stays.
+// Cells are grouped in bricks of 4 x 4 x 4; arrays are in brick order, so that a brick's 64 cells are neighbours in memory.
+//
+// Only cells that a triangle touches have storage of their own: their index is the brick's cell base + the count of set occupancy
+// bits below. Such a cell keeps 4 x 4 x 4 solid bits ("sub-voxels"), and one record for each of the six axis directions that
+// some of its surface mostly faces: record index = base + count of set face bits below.
+#ifndef WORLD_IO_H
+#define WORLD_IO_H
+#include "servers/rendering/device/shader_interop.h"
+
+#define WORLD_MAX_CASCADES 8
+#define WORLD_BRICK_CELLS 4 // an axis
+#define WORLD_SUB_VOXELS 4 // an axis of a cell
+
+// Bindings of the world, wherever it is read (world_inc.glsl, trace_world_inc.glsl).
+#define WORLD_PARAMS 0 // uniform GiWorldParams
+#define WORLD_OCCUPANCY 1 // uvec2 a brick: bit x + 4 y + 16 z is set where the cell has storage
+#define WORLD_BRICK_CELL_BASE 2 // uint a brick: index of its first stored cell
+#define WORLD_CELLS 3 // WorldCell a stored cell
+#define WORLD_SDF 4 // a byte a cell: distance to the nearest stored cell's centre, in eighths of a cell, rounded down, 255: that or more
+#define WORLD_RECORDS 5 // WorldRecord
+#define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: irradiance / pi (times albedo: radiance) of all light; of all light but lamps'; w: 1 when lit
+#define WORLD_SKY 7 // texture2D, octahedral
+#define WORLD_SKY_SAMPLER 8
+
+#define WORLD_SDF_SCALE 8.0
+#define WORLD_SDF_RADIUS_CELLS 31
+
+// Fixed-point scales of the accumulators: areas are in cells^2, so one record can take 4096 cell faces.
+#define WORLD_FIXED_AREA 1048576.0
+#define WORLD_FIXED_EMISSION 4096.0
+// Everything that a triangle touches within this many sub-voxels counts: surfaces that lie exactly between two cells belong to both.
+#define WORLD_TOUCH_SUB_VOXELS 0.00390625
+
+INTEROP_BEGIN
+struct GiCascade {
+	ivec3 origin_cells; // world-fixed coordinates of the lowest cell
+	vec3 cell_m; // size of a cell; y is smaller by the y scale
+	uint brick_base; // first brick
+	uint cell_base; // first stored cell
+	uint record_base; // first record
+};
+struct GiWorldParams {
+	GiCascade cascades[WORLD_MAX_CASCADES];
+	uint cascade_count;
+	uint grid_size; // cells an axis, a power of two, at most 256
+	uint cell_capacity; // a cascade
+	uint record_capacity; // a cascade
+	float sky_scale; // 0: rays that leave the world see nothing
+	int hole_margin_cells; // cells of a coarser cascade deeper than this inside the finer one are never lit nor read
+};
+struct WorldCell {
+	uvec2 bits; // sub-voxel x + 4 y + 16 z
+	uint records; // index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
+};
+struct WorldRecord {
+	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
+	uint normal; // octahedral, 16 bits each
+	uint albedo; // 11:11:10 unorm
+	uint emission; // RGB9E5, mean over the area that rays see
+	uint cell; // cascade << 27 | face << 24 | storage coordinates z << 16 | y << 8 | x
+};
+// Per-record sums while a cascade is voxelised. Integers, so that the order of triangles doesn't matter.
+struct RecordAccumulator {
+	uint area;
+	uvec3 albedo;
+	uvec3 emission;
+	ivec3 normal;
+	uvec3 position;
+};
+// A cascade's counts, written by the allocation passes. Wanted, so they may exceed the capacity.
+struct CascadeCounts {
+	uint cells;
+	uint records;
+};
+struct VoxelizeConstants {
+	uint cascade;
+	uint surface_count;
+	uint triangle_count;
+};
+struct BuildSdfConstants {
+	uint cascade;
+	uint axis;
+};
+struct ClearWordsConstants {
+	uint first;
+	uint count;
+	uint value;
+};
+// An emissive record in the list for next-event estimation.
+struct Emitter {
+	uint record;
+	float cdf; // running share of the power, this one included; 1 at the end
+	float share; // of the total power
+	float area_m2; // that rays see
+};
+INTEROP_END
+INTEROP_SIZE(GiCascade, 36)
+INTEROP_SIZE(GiWorldParams, 312)
+INTEROP_SIZE(WorldCell, 12)
+INTEROP_SIZE(WorldRecord, 20)
+INTEROP_SIZE(RecordAccumulator, 52)
+#endif
