@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The voxelised world against brute force: coverage against triangle-box overlap, the distance field against all pairs.
+#include "servers/rendering/gi/world/gi_world.h"
+#include "tests/gpu/gi_test_scene.h"
+#include "tests/gpu/gpu_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+using namespace lucent;
+
+namespace {
+
+constexpr uint32_t GRID = 64;
+
+// Separating axes (Akenine-Möller, "Fast 3D Triangle-Box Overlap Testing", 2001): three box axes, the plane, nine edge products.
+bool triangle_overlaps_box(const glm::dvec3 p_v[3], const glm::dvec3 &p_center, double p_half) {
+	glm::dvec3 v[3], edges[3];
+	for (int i = 0; i < 3; i++) {
+		v[i] = p_v[i] - p_center;
+	}
+	for (int i = 0; i < 3; i++) {
+		edges[i] = v[(i + 1) % 3] - v[i];
+	}
+	const auto separates = [&](const glm::dvec3 &p_axis) {
+		const double a = glm::dot(v[0], p_axis), b = glm::dot(v[1], p_axis), c = glm::dot(v[2], p_axis);
+		const double reach = p_half * (std::abs(p_axis.x) + std::abs(p_axis.y) + std::abs(p_axis.z));
+		return std::min(a, std::min(b, c)) > reach || std::max(a, std::max(b, c)) < -reach;
+	};
+	for (int i = 0; i < 3; i++) {
+		glm::dvec3 axis(0.0);
+		axis[i] = 1.0;
+		if (separates(axis)) {
+			return false;
+		}
+		for (int k = 0; k < 3; k++) {
+			if (separates(glm::cross(axis, edges[k]))) {
+				return false;
+			}
+		}
+	}
+	return !separates(glm::cross(edges[0], edges[1]));
+}
+
+uint32_t brick_index(const glm::uvec3 &p_storage) {
+	const uint32_t axis = GRID / 4;
+	return ((p_storage.z / 4) * axis + p_storage.y / 4) * axis + p_storage.x / 4;
+}
+uint32_t bit_index(const glm::uvec3 &p_storage) {
+	return p_storage.x % 4 + 4 * (p_storage.y % 4) + 16 * (p_storage.z % 4);
+}
+
+struct ReadWorld {
+	std::vector<uint64_t> occupancy;
+	std::vector<uint32_t> cell_base;
+	std::vector<shader::WorldCell> cells;
+	std::vector<uint8_t> sdf;
+	Vector3i origin{ 0 };
+
+	glm::uvec3 storage(const Vector3i &p_cell) const { return glm::uvec3((p_cell + origin) & Vector3i(int(GRID) - 1)); }
+	bool occupied(const Vector3i &p_cell) const {
+		const glm::uvec3 s = storage(p_cell);
+		return (occupancy[brick_index(s)] >> bit_index(s) & 1) != 0;
+	}
+	uint64_t bits(const Vector3i &p_cell) const {
+		const glm::uvec3 s = storage(p_cell);
+		const uint64_t below = occupancy[brick_index(s)] & ((uint64_t(1) << bit_index(s)) - 1);
+		const shader::WorldCell &cell = cells[cell_base[brick_index(s)] + uint32_t(__builtin_popcountll(below))];
+		return uint64_t(cell.bits.x) | uint64_t(cell.bits.y) << 32;
+	}
+};
+
+ReadWorld build_and_read(RenderingDevice &p_device, GiWorld &r_world, const GiSceneView &p_view) {
+	PassRecorder &recorder = p_device.begin_frame();
+	r_world.upload_params(recorder);
+	r_world.rebuild_cascade(recorder, p_view, 0);
+	p_device.end_frame();
+	ReadWorld result;
+	result.occupancy = p_device.read_back_buffer<uint64_t>(r_world.occupancy_handle());
+	result.cell_base = p_device.read_back_buffer<uint32_t>(r_world.brick_cell_base_handle());
+	result.cells = p_device.read_back_buffer<shader::WorldCell>(r_world.cells_handle());
+	result.sdf = p_device.read_back_buffer<uint8_t>(r_world.sdf_handle());
+	result.origin = r_world.origin_cells(0);
+	return result;
+}
+
+template <typename F>
+void for_each_cell(F &&p_visit) {
+	for (int z = 0; z < int(GRID); z++) {
+		for (int y = 0; y < int(GRID); y++) {
+			for (int x = 0; x < int(GRID); x++) {
+				p_visit(Vector3i(x, y, z));
+			}
+		}
+	}
+}
+
+} // namespace
+
+TEST_SUITE("gpu") {
+	TEST_CASE("every sub-voxel that a triangle touches is solid, and no other beyond the touch distance") {
+		GpuFixture fixture;
+		RenderingDevice &device = fixture.device();
+		GiTestScene scene(device);
+		const uint32_t material = scene.add_material(Vector3(0.5f));
+		std::mt19937 random(7);
+		std::uniform_real_distribution<float> place(-5.0f, 5.0f);
+		std::uniform_real_distribution<float> spread(-1.5f, 1.5f);
+		for (int i = 0; i < 12; i++) {
+			const Vector3 a(place(random), place(random) * 0.6f, place(random));
+			const auto corner = [&]() { return a + Vector3(spread(random), spread(random), spread(random)); };
+			const Vector3 b = corner(), c = corner();
+			scene.add_triangle(a, b, c, material);
+		}
+		scene.add_box(Vector3(-2.0f, -1.0f, -2.0f), Vector3(2.0f, 1.0f, 2.0f), material); // on cell borders
+		GiWorld world(device, { .cascades = 1, .grid_size = GRID, .min_cell_m = 0.2f, .y_multiplier = 1.5f });
+		world.set_origin_cells(0, Vector3i(-32, -40, -24));
+		const ReadWorld read = build_and_read(device, world, scene.upload());
+
+		const std::vector<Vector3> &corners = scene.triangle_corners();
+		const Vector3 cell_m = world.cell_m(0);
+		uint32_t missing = 0, surplus = 0, solid = 0;
+		std::vector<glm::dvec3> local;
+		for (const Vector3 &corner : corners) {
+			local.push_back(glm::dvec3(corner) / glm::dvec3(cell_m) - glm::dvec3(read.origin));
+		}
+		for_each_cell([&](const Vector3i &p_cell) {
+			uint64_t inner = 0, outer = 0;
+			for (size_t t = 0; t < local.size(); t += 3) {
+				if (!triangle_overlaps_box(&local[t], glm::dvec3(p_cell) + 0.5, 0.51)) {
+					continue;
+				}
+				for (uint32_t i = 0; i < 64; i++) {
+					const glm::dvec3 center = glm::dvec3(p_cell) + (glm::dvec3(i % 4, i / 4 % 4, i / 16) + 0.5) / 4.0;
+					inner |= uint64_t(triangle_overlaps_box(&local[t], center, 0.125)) << i;
+					outer |= uint64_t(triangle_overlaps_box(&local[t], center, 0.125 + 2.5 * WORLD_TOUCH_SUB_VOXELS / 4.0)) << i;
+				}
+			}
+			const uint64_t bits = read.occupied(p_cell) ? read.bits(p_cell) : 0;
+			missing += uint32_t(__builtin_popcountll(inner & ~bits));
+			surplus += uint32_t(__builtin_popcountll(bits & ~outer));
+			solid += uint32_t(__builtin_popcountll(bits));
+		});
+		CHECK(solid > 10000);
+		CHECK(missing == 0);
+		CHECK(surplus == 0);
+	}
+
+	TEST_CASE("the distance field is the distance to the nearest stored cell, rounded down to an eighth") {
+		GpuFixture fixture;
+		RenderingDevice &device = fixture.device();
+		GiTestScene scene(device);
+		const uint32_t material = scene.add_material(Vector3(0.5f));
+		std::mt19937 random(3);
+		std::uniform_real_distribution<float> place(-6.0f, 6.0f);
+		for (int i = 0; i < 9; i++) {
+			const Vector3 a(place(random), place(random), place(random));
+			scene.add_triangle(a, a + Vector3(0.1f, 0.0f, 0.0f), a + Vector3(0.0f, 0.1f, 0.05f), material);
+		}
+		GiWorld world(device, { .cascades = 1, .grid_size = GRID, .min_cell_m = 0.2f, .y_multiplier = 1.0f });
+		world.set_origin_cells(0, Vector3i(-40, -32, -28));
+		const ReadWorld read = build_and_read(device, world, scene.upload());
+		std::vector<Vector3i> occupied;
+		for_each_cell([&](const Vector3i &p_cell) {
+			if (read.occupied(p_cell)) {
+				occupied.push_back(p_cell);
+			}
+		});
+		REQUIRE(occupied.size() >= 9);
+		uint32_t wrong = 0;
+		for_each_cell([&](const Vector3i &p_cell) {
+			int best = INT32_MAX;
+			for (const Vector3i &other : occupied) {
+				const Vector3i d = other - p_cell;
+				best = std::min(best, d.x * d.x + d.y * d.y + d.z * d.z);
+			}
+			const uint32_t expected = std::min(255u, uint32_t(std::floor(std::sqrt(float(best)) * 8.0f)));
+			const glm::uvec3 s = read.storage(p_cell);
+			wrong += read.sdf[brick_index(s) * 64 + bit_index(s)] != expected;
+		});
+		CHECK(wrong == 0);
+	}
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// SDFGI against answers that are known exactly.
+#include "tests/gpu/gi_test_scene.h"
+#include "tests/gpu/gpu_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace lucent;
+
+namespace {
+
+const Vector3 AXES[] = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
+
+SdfgiSettings small_settings(SdfgiYScale p_scale) {
+	SdfgiSettings settings;
+	settings.enabled = true;
+	settings.cascades = 2;
+	settings.grid_size_cells = 64;
+	settings.y_scale = p_scale;
+	settings.frames_to_converge = 8;
+	return settings;
+}
+
+} // namespace
+
+TEST_SUITE("gpu") {
+	TEST_CASE("white furnace: constant sky over a lone box reads 1 on every side, at every y scale") {
+		GpuFixture fixture;
+		for (const SdfgiYScale scale : { SdfgiYScale::SCALE_50_PERCENT, SdfgiYScale::SCALE_75_PERCENT, SdfgiYScale::SCALE_100_PERCENT }) {
+			GiTestScene scene(fixture.device());
+			scene.add_box(Vector3(-0.55f), Vector3(0.55f), scene.add_material(Vector3(0.5f)));
+			scene.set_sky(Vector3(1.0f), Vector3(1.0f));
+			Sdfgi sdfgi(fixture.device());
+			run_sdfgi(fixture.device(), sdfgi, small_settings(scale), scene.upload(), Vector3(0.0f), 64);
+			std::vector<Vector3> points, normals(std::begin(AXES), std::end(AXES));
+			for (const Vector3 &axis : AXES) {
+				points.push_back(axis * 0.55f);
+			}
+			for (const Vector3 &value : gather_at(fixture.device(), sdfgi, points, normals)) {
+				CHECK(value.x == doctest::Approx(1.0f).epsilon(0.003));
+			}
+		}
+	}
+
+	TEST_CASE("white furnace: a closed room of albedo 0.5 and emission 1 reads 2 on every side, at every y scale") {
+		GpuFixture fixture;
+		for (const SdfgiYScale scale : { SdfgiYScale::SCALE_50_PERCENT, SdfgiYScale::SCALE_75_PERCENT, SdfgiYScale::SCALE_100_PERCENT }) {
+			GiTestScene scene(fixture.device());
+			scene.add_box(Vector3(-2.03f, -1.51f, -1.77f), Vector3(2.11f, 1.43f, 1.91f), scene.add_material(Vector3(0.5f), Vector3(1.0f)), true);
+			Sdfgi sdfgi(fixture.device());
+			run_sdfgi(fixture.device(), sdfgi, small_settings(scale), scene.upload(), Vector3(0.0f), 200);
+			const std::vector<Vector3> points = { { -2.03f, 0.1f, 0.2f }, { 2.11f, 0.1f, 0.2f }, { 0.1f, -1.51f, 0.2f }, { 0.1f, 1.43f, 0.2f }, { 0.1f, 0.2f, -1.77f }, { 0.1f, 0.2f, 1.91f } };
+			const std::vector<Vector3> normals(std::begin(AXES), std::end(AXES));
+			for (const Vector3 &value : gather_at(fixture.device(), sdfgi, points, normals)) {
+				// The gathered value is without the point's own emission: incoming radiance everywhere is 2.
+				CHECK(value.x == doctest::Approx(2.0f).epsilon(0.02));
+			}
+		}
+	}
+
+	TEST_CASE("opposite walls under a symmetric sky agree") {
+		GpuFixture fixture;
+		GiTestScene scene(fixture.device());
+		scene.add_box(Vector3(-0.55f), Vector3(0.55f), scene.add_material(Vector3(0.5f)));
+		scene.set_sky(Vector3(1.0f), Vector3(0.0f));
+		Sdfgi sdfgi(fixture.device());
+		run_sdfgi(fixture.device(), sdfgi, small_settings(SdfgiYScale::SCALE_75_PERCENT), scene.upload(), Vector3(0.0f), 64);
+		std::vector<Vector3> points, normals(std::begin(AXES), std::end(AXES));
+		for (const Vector3 &axis : AXES) {
+			points.push_back(axis * 0.55f);
+		}
+		const std::vector<Vector3> values = gather_at(fixture.device(), sdfgi, points, normals);
+		for (const int wall : { 0, 1, 4, 5 }) {
+			CHECK(values[size_t(wall)].x == doctest::Approx(0.5f).epsilon(0.03));
+		}
+		CHECK(values[2].x == doctest::Approx(1.0f).epsilon(0.01));
+		CHECK(values[3].x < 0.01f);
+	}
+
+	TEST_CASE("a sealed room beside a bright one stays exactly black behind a 5 cm wall") {
+		GpuFixture fixture;
+		for (const float offset : { 0.0f, 0.03f, 0.07f, 0.11f, 0.16f }) {
+			GiTestScene scene(fixture.device());
+			const uint32_t white = scene.add_material(Vector3(0.8f));
+			const uint32_t lamp = scene.add_material(Vector3(0.8f), Vector3(50.0f));
+			const float wall = offset;
+			// Two rooms as one closed shell of boxes, 5 cm walls.
+			scene.add_box(Vector3(wall, -1.0f, -2.0f), Vector3(wall + 0.05f, 1.0f, 2.0f), white);
+			scene.add_box(Vector3(-3.0f, -1.05f, -2.0f), Vector3(3.0f, -1.0f, 2.0f), white);
+			scene.add_box(Vector3(-3.0f, 1.0f, -2.0f), Vector3(3.0f, 1.05f, 2.0f), white);
+			scene.add_box(Vector3(-3.0f, -1.0f, -2.05f), Vector3(3.0f, 1.0f, -2.0f), white);
+			scene.add_box(Vector3(-3.0f, -1.0f, 2.0f), Vector3(3.0f, 1.0f, 2.05f), white);
+			scene.add_box(Vector3(-3.05f, -1.0f, -2.0f), Vector3(-3.0f, 1.0f, 2.0f), white);
+			scene.add_box(Vector3(3.0f, -1.0f, -2.0f), Vector3(3.05f, 1.0f, 2.0f), white);
+			scene.add_box(Vector3(-1.2f, -0.2f, -0.2f), Vector3(-0.8f, 0.2f, 0.2f), lamp);
+			Sdfgi sdfgi(fixture.device());
+			run_sdfgi(fixture.device(), sdfgi, small_settings(SdfgiYScale::SCALE_75_PERCENT), scene.upload(), Vector3(0.0f), 32);
+			const std::vector<Vector3> points = { { wall + 0.06f, -1.0f, 0.0f }, { wall + 0.05f, 0.0f, 0.3f }, { wall + 0.15f, 1.0f, 0.5f }, { 1.5f, -1.0f, 0.0f }, { 3.0f, 0.0f, 0.0f }, { 0.0f + wall, 0.0f, 0.0f } };
+			const std::vector<Vector3> normals = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { -1, 0, 0 } };
+			const std::vector<Vector3> values = gather_at(fixture.device(), sdfgi, points, normals);
+			for (size_t i = 0; i + 1 < values.size(); i++) {
+				CHECK(values[i] == Vector3(0.0f));
+			}
+			CHECK(values.back().x > 0.5f); // the lit side
+		}
+	}
+}
