@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
+
 using namespace lucent;
 
 TEST_CASE("a cascade surrounds the camera and stands on multiples of the probe spacing") {

@@ -59,7 +59,7 @@ vec4 sample_records(GiQuery query, uint cascade) {
 	vec3 n = query.normal;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
-	uint record_end = c.record_base + world.record_capacity;
+	uint end = record_end(cascade);
 	float cell_along_normal = 4.0 * sub_voxel_along_m(cascade, n);
 	for (uint i = 0u; i < 8u; i++) {
 		ivec3 corner = ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
@@ -77,7 +77,7 @@ vec4 sample_records(GiQuery query, uint cascade) {
 		}
 		uint packed_records = world_cells[cell].records;
 		uint index = packed_records >> 6;
-		for (uint faces = packed_records & 63u; faces != 0u && index < record_end; faces &= faces - 1u, index++) {
+		for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
 			WorldRecord record = world_records[index];
 			float facing = dot(n, record_normal(record));
 			if (facing < 0.5 || !record_has_start(record)) {

@@ -35,13 +35,13 @@ vec3 view_of_hit(WorldHit hit, vec3 direction) {
 		return vec3(1.0, 0.0, 1.0);
 	}
 	if (constants.view == DEBUG_VIEW_RADIANCE) {
-		return hit_radiance(hit, direction, true);
+		return hit_radiance(hit, direction, 1.0, true);
 	}
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint packed_records = world_cells[hit.cell].records;
 	uint index = packed_records >> 6;
-	uint end = world.cascades[hit.cascade].record_base + world.record_capacity;
+	uint end = record_end(hit.cascade);
 	for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
 		float weight = max(-dot(record_normal(record), direction), 0.0);
@@ -109,7 +109,7 @@ void main() {
 	uint cascade = finest_cascade(constants.camera_m);
 	WorldHit hit = trace_world(constants.camera_m, direction, 1e6, cascade);
 	if (constants.view == DEBUG_VIEW_PROBES) {
-		color = hit.hit ? 0.2 * hit_radiance(hit, direction, false) : vec3(0.0);
+		color = hit.hit ? 0.2 * hit_radiance(hit, direction, 1.0, false) : vec3(0.0);
 		vec4 spheres = probe_spheres(0u, constants.camera_m, direction, hit.hit ? hit.t_m + 0.2 : 100.0);
 		color = spheres.w < (hit.hit ? hit.t_m + 0.2 : 100.0) ? spheres.rgb : color;
 	} else if (constants.view == DEBUG_VIEW_OCCLUSION) {

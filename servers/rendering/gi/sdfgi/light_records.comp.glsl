@@ -10,6 +10,7 @@
 #include "servers/rendering/shaders/scene_io.h"
 
 #define LANES 8u
+#define NEAR_EMITTERS_CELLS 3.0
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = LIGHT_RECORDS_LIGHTS, scalar) readonly buffer LightsBlock {
@@ -57,14 +58,7 @@ vec3 jittered_start(WorldRecord record, uvec2 bits, vec3 normal, vec3 start_m, v
 	offset[axis] = -(offset[a] * normal[a] + offset[b] * normal[b]) / normal[axis];
 	offset[axis] = clamp(offset[axis], -cell_m[axis], cell_m[axis]);
 	uvec2 column = min(uvec2(u * 4.0), uvec2(3u));
-	bool surface = false;
-	for (uint i = 0u; i < 4u; i++) {
-		uvec3 s;
-		s[axis] = i;
-		s[a] = column.x;
-		s[b] = column.y;
-		surface = surface || bit_is_set(bits, s.x + 4u * s.y + 16u * s.z);
-	}
+	bool surface = ((columns_of_bits(bits, axis) >> (column.x + 4u * column.y)) & 1u) != 0u;
 	vec3 moved = start_m + offset;
 	return surface && short_way_is_free(cascade, start_m, moved) ? moved : start_m;
 }
@@ -120,13 +114,7 @@ vec3 emitter_point_m(WorldRecord record, vec2 u) {
 	vec3 center = record_position_in_cell(record);
 	uint index = find_cell(record_cascade(record), storage_from_world_cell(record_world_cell(record)));
 	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
-	uint mask = 0u;
-	for (uint i = 0u; i < 64u; i++) {
-		if (bit_is_set(bits, i)) {
-			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
-			mask |= 1u << (s[a] + 4u * s[b]);
-		}
-	}
+	uint mask = columns_of_bits(bits, axis);
 	uint count = uint(bitCount(mask));
 	if (count == 0u) {
 		return record_position_m(record);
@@ -160,6 +148,11 @@ uint find_emitter(float u) {
 	return low;
 }
 
+// Emission nearer than this comes from gather rays, emission further away from rays to emitters.
+float near_emitters_m() {
+	return NEAR_EMITTERS_CELLS * world.cascades[constants.cascade].cell_m.x;
+}
+
 struct EmitterSample {
 	LightRay ray;
 	uint record;
@@ -177,15 +170,14 @@ EmitterSample sample_emitter(vec3 from_m, vec3 normal, float pick, vec2 u) {
 	result.ray.direction = way / distance_m;
 	result.ray.t_max_m = distance_m;
 	float cosines = max(dot(normal, result.ray.direction), 0.0) * max(-dot(record_normal(record), result.ray.direction), 0.0);
-	// Nearer than a quarter cell the emitter fills the view: no more than that.
-	float nearest = 0.25 * world.cascades[record_cascade(record)].cell_m.x;
-	float form = cosines * emitter.area_m2 / (PI * max(distance_squared, nearest * nearest));
-	result.ray.light = color_from_rgb9e5(record.emission) * min(form, 1.0) / max(emitter.share, 1e-9);
+	// Emitters nearer than this are left to the gather rays: there a record is no point of light.
+	float form = distance_m < near_emitters_m() ? 0.0 : cosines * emitter.area_m2 / (PI * distance_squared);
+	result.ray.light = color_from_rgb9e5(record.emission) * form / max(emitter.share, 1e-9);
 	result.weight = dot(result.ray.light, vec3(1.0));
 	return result;
 }
 
-// Three candidates by power, one kept by what it would give (resampled importance sampling, Talbot et al. 2005).
+// Two candidates by power, one kept by what it would give (resampled importance sampling, Talbot et al. 2005).
 EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) {
 	EmitterSample kept;
 	kept.weight = 0.0;
@@ -194,7 +186,7 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 	kept.ray.direction = normal;
 	kept.ray.t_max_m = 0.0;
 	float sum = 0.0;
-	const uint CANDIDATES = 3u;
+	const uint CANDIDATES = 2u;
 	for (uint i = 0u; i < CANDIDATES; i++) {
 		float pick = r2_point(index * CANDIDATES + i, seed).x;
 		EmitterSample candidate = sample_emitter(from_m, normal, pick, r2_point(index, hash_uint(seed + 11u + i)));
@@ -205,6 +197,28 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 	}
 	kept.ray.light *= kept.weight > 0.0 ? sum / (float(CANDIDATES) * kept.weight) : 0.0;
 	return kept;
+}
+
+// The ray has met the emitter's own cell, or a neighbour in the emitter's plane: solid bits stand up to a sub-voxel and its touch
+// before the surface, so that a flat ray meets them before the point that it is meant for.
+bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
+	WorldRecord emitter = world_records[target];
+	if (hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter)) {
+		return true;
+	}
+	vec3 normal = record_normal(emitter);
+	float before_plane_m = (ray.t_max_m - hit.t_m) * -dot(normal, ray.direction);
+	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > 1.3 * sub_voxel_along_m(hit.cascade, normal)) {
+		return false;
+	}
+	uint packed_records = world_cells[hit.cell].records;
+	uint faces = packed_records & 63u;
+	uint face = record_face(emitter);
+	if (cell_is_split(faces) || (faces & (1u << face)) == 0u) {
+		return false;
+	}
+	uint neighbour = (packed_records >> 6) + uint(bitCount(faces & ((1u << face) - 1u)));
+	return neighbour < record_end(hit.cascade) && world_records[neighbour].emission != 0u;
 }
 
 struct LaneLight {
@@ -264,12 +278,9 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 		light.rays++;
 		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m, cascade);
 		if (k == 0u) {
-			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, false) * constants.feedback : sky_radiance(ray.direction));
+			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, hit.t_m < near_emitters_m()) : sky_radiance(ray.direction));
 		} else if (k == 1u) {
-			WorldRecord emitter = world_records[target];
-			bool same_cell = hit.hit && hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter);
-			float close_m = 1.5 * sub_voxel_along_m(record_cascade(emitter), ray.direction);
-			light.indirect += !hit.hit || same_cell || ray.t_max_m - hit.t_m < close_m ? ray.light : vec3(0.0);
+			light.indirect += !hit.hit || hit_is_emitter(hit, target, ray) ? ray.light : vec3(0.0);
 		} else {
 			light.lamps += hit.hit ? vec3(0.0) : ray.light;
 		}
@@ -299,7 +310,6 @@ vec3 advance(uint base, vec3 light, out float change) {
 
 void main() {
 	uint lane = gl_LocalInvocationIndex % LANES;
-	GiCascade cascade = world.cascades[constants.cascade];
 	uint count = min(counts[constants.cascade].records, world.record_capacity);
 	uint groups = (count + 7u) / 8u;
 	if (gl_LocalInvocationIndex == 0u) {
@@ -308,7 +318,7 @@ void main() {
 	barrier();
 	for (uint group = gl_WorkGroupID.x; group < groups; group += gl_NumWorkGroups.x) {
 		uint i = group * 8u + gl_LocalInvocationIndex / LANES;
-		uint index = cascade.record_base + min(i, count - 1u);
+		uint index = record_base(constants.cascade) + min(i, count - 1u);
 		WorldRecord record = world_records[index];
 		bool active_record = i < count && record_has_start(record) && !cell_in_hole(constants.cascade, record_world_cell(record));
 		LaneLight light = LaneLight(vec3(0.0), vec3(0.0), 0u);

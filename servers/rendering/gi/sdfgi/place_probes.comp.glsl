@@ -58,6 +58,10 @@ void main() {
 			}
 		}
 	}
+	// A block's far corner is sqrt(3) spacings away; a cell's centre up to 0.87 cells further, the probe as far from its own.
+	ivec3 center = clamp(probe * int(probe_params.spacing_cells) - world.cascades[constants.cascade].origin_cells, ivec3(0), ivec3(int(world.grid_size) - 1));
+	float reach_cells = sdf_cells(constants.cascade, storage_from_world_cell(center + world.cascades[constants.cascade].origin_cells));
+	uint flags = (best_free ? PROBE_FREE : 0u) | (reach_cells < 1.7321 * spacing + 2.0 ? PROBE_NEAR : 0u);
 	ivec3 packed_offset = ivec3(round(clamp(best_offset * 16.0, -127.0, 127.0))) & 255;
-	places[constants.cascade * probes_in_cascade() + place].packed_offset = uint(packed_offset.x) | (uint(packed_offset.y) << 8) | (uint(packed_offset.z) << 16) | (best_free ? 1u << 24 : 0u);
+	places[constants.cascade * probes_in_cascade() + place].packed_offset = uint(packed_offset.x) | (uint(packed_offset.y) << 8) | (uint(packed_offset.z) << 16) | (flags << 24);
 }

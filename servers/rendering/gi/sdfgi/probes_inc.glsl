@@ -35,7 +35,15 @@ vec3 probe_position_m(uint cascade, ivec3 probe, ProbePlace place) {
 	return (vec3(probe * int(probe_params.spacing_cells)) + vec3(offset) / 16.0) * world.cascades[cascade].cell_m;
 }
 bool probe_is_free(ProbePlace place) {
-	return (place.packed_offset >> 24) == 1u;
+	return ((place.packed_offset >> 24) & PROBE_FREE) != 0u;
+}
+// Probes that no surface reads take turns.
+bool probe_is_due(ProbePlace place, uint index) {
+	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u || (index + probe_params.frame) % PROBE_FAR_PERIOD == 0u;
+}
+// The probe's own count of updates.
+uint probe_turn(ProbePlace place) {
+	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u ? probe_params.frame : probe_params.frame / PROBE_FAR_PERIOD;
 }
 ivec2 probe_tile(uint index, int tile_texels) {
 	return ivec2(int(index % PROBE_TILES_A_ROW), int(index / PROBE_TILES_A_ROW)) * tile_texels;

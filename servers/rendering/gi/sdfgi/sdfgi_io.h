@@ -18,6 +18,11 @@
 #define LIGHT_RECORDS_OUT 25
 #define LIGHT_RECORDS_STATISTICS 26
 
+#define PROBE_FREE 1 // not in a solid sub-voxel
+#define PROBE_NEAR 2 // a surface can read it: there is a stored cell in the eight blocks around it
+// Frames between the updates of a probe that is not near
+#define PROBE_FAR_PERIOD 8
+
 // Probes, wherever they are read
 #define GI_PROBE_PARAMS 9 // uniform ProbeParams
 #define GI_PROBE_IRRADIANCE 30 // texture2D: a tile of PROBE_BORDERED_TEXELS a probe
@@ -35,7 +40,7 @@ struct LightRecordsConstants {
 	float feedback; // sdfgi_bounce_feedback
 	uint seed_frame; // never reset
 };
-// A probe's place: offset from its grid point in 1/16 cells, 8 bits an axis (signed), then 8 bits: 1 = in free space.
+// A probe's place: offset from its grid point in 1/16 cells, 8 bits an axis (signed), then PROBE_* bits.
 struct ProbePlace {
 	uint packed_offset;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "servers/rendering/gi/sdfgi/sdfgi_passes.h"
 
+#include <cstddef>
+
 namespace lucent {
 
 namespace {
@@ -30,7 +32,7 @@ void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const 
 			.write(LIGHT_RECORDS_OUT, p_in.world.next_light_handle())
 			.read_write(LIGHT_RECORDS_STATISTICS, p_in.statistics)
 			.constants(p_constants)
-			.dispatch_groups(4096); // each walks every 4096th group of eight records
+			.dispatch_indirect(p_in.world.counts_handle(), p_constants.cascade * sizeof(shader::CascadeCounts) + offsetof(shader::CascadeCounts, light_groups));
 }
 
 void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade) {
@@ -47,6 +49,7 @@ void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32
 			.uniform(GI_PROBE_PARAMS, p_in.probe_params)
 			.read_write(OUT_0, p_in.radiance_atlas)
 			.write(OUT_1, p_in.irradiance_atlas)
+			.read(OUT_2, p_in.probe_places)
 			.constants(constants)
 			.dispatch_groups(256, (p_in.probes_in_cascade + 255) / 256);
 }

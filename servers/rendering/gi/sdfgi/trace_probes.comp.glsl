@@ -32,21 +32,25 @@ void trace_ray(uint place, uint ray) {
 		return;
 	}
 	const uint TEXELS = PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS;
-	uint turn = probe_params.frame * probe_params.rays + ray;
+	ProbePlace probe_place = places[index];
+	if (!probe_is_due(probe_place, index)) {
+		return;
+	}
+	uint turn = probe_turn(probe_place) * probe_params.rays + ray;
 	uint texel_index = turn % TEXELS;
 	uint visit = turn / TEXELS;
 	ivec2 texel = ivec2(int(texel_index % PROBE_RADIANCE_TEXELS), int(texel_index / PROBE_RADIANCE_TEXELS));
 	ivec2 at = probe_tile(index, PROBE_RADIANCE_BORDERED_TEXELS) + 1 + texel;
-	if (!probe_is_free(places[index])) {
+	if (!probe_is_free(probe_place)) {
 		imageStore(radiance_atlas, at, vec4(0.0));
 		return;
 	}
 	uint seed = hash_uint(uint(probe.x) * 73856093u ^ hash_uint(uint(probe.y) * 19349663u ^ hash_uint(uint(probe.z) * 83492791u ^ texel_index)));
 	vec3 direction = direction_of_texel(texel, PROBE_RADIANCE_TEXELS, r2_point(visit % probe_params.average_frames, seed));
-	vec3 origin_m = probe_position_m(constants.cascade, probe, places[index]);
+	vec3 origin_m = probe_position_m(constants.cascade, probe, probe_place);
 	atomicAdd(group_rays, 1u);
 	WorldHit hit = trace_world(origin_m, direction, 1e6, constants.cascade);
-	vec3 radiance = hit.hit ? hit_radiance(hit, direction, true) : sky_radiance(direction);
+	vec3 radiance = hit.hit ? hit_radiance(hit, direction, 1.0, true) : sky_radiance(direction);
 	vec3 mean = imageLoad(radiance_atlas, at).rgb;
 	float weight = 1.0 / float(min(visit, probe_params.average_frames - 1u) + 1u);
 	imageStore(radiance_atlas, at, vec4(min(mix(mean, radiance, weight), vec3(65000.0)), 1.0));

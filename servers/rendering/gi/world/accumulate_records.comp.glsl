@@ -44,7 +44,7 @@ Polygon cut(Polygon polygon, uint axis, float limit, float side) {
 }
 
 void add_to_record(uint record, float area, vec3 albedo, vec3 emission, vec3 area_normal, vec3 position) {
-	uint base = (record - world.cascades[constants.cascade].record_base) * 13u;
+	uint base = (record - record_base(constants.cascade)) * 13u;
 	float scaled = area * WORLD_FIXED_AREA;
 	atomicAdd(accumulator_words[base], max(1u, uint(scaled + 0.5)));
 	vec3 emission_sum = min(emission, vec3(60000.0)) * area * WORLD_FIXED_EMISSION;
@@ -60,8 +60,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	uvec3 storage = storage_from_world_cell(cell + world.cascades[constants.cascade].origin_cells);
 	uint brick = brick_of_cell(constants.cascade, storage);
 	uint index = brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage));
-	GiCascade cascade = world.cascades[constants.cascade];
-	if (index >= cascade.cell_base + world.cell_capacity) {
+	if (index >= cell_end(constants.cascade)) {
 		return;
 	}
 	Polygon polygon;
@@ -101,7 +100,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	uint mask = packed_records & 63u;
 	for (uint side = 0u; side < 2u; side++) {
 		uint record = (packed_records >> 6) + uint(bitCount(mask & ((1u << face) - 1u)));
-		if ((mask & (1u << face)) != 0u && record < cascade.record_base + world.record_capacity) {
+		if ((mask & (1u << face)) != 0u && record < record_end(constants.cascade)) {
 			add_to_record(record, area_sum, albedo.rgb, emission, area_normal, center);
 		}
 		if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) == 0u) {

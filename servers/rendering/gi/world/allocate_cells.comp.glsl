@@ -23,17 +23,16 @@ layout(push_constant, scalar) uniform AllocatePush {
 };
 
 void main() {
-	GiCascade cascade = world.cascades[constants.cascade];
 	uint axis = world.grid_size / WORLD_BRICK_CELLS;
 	uint bricks = axis * axis * axis; // a multiple of 256: the grid has at least 32 cells an axis
 	uint each = bricks / 256u;
-	uint first = cascade.brick_base + gl_LocalInvocationIndex * each;
+	uint first = brick_base(constants.cascade) + gl_LocalInvocationIndex * each;
 	uint sum = 0u;
 	for (uint i = 0u; i < each; i++) {
 		uvec2 mask = occupancy[first + i];
 		sum += uint(bitCount(mask.x) + bitCount(mask.y));
 	}
-	uint index = cascade.cell_base + scan_group(sum);
+	uint index = cell_base(constants.cascade) + scan_group(sum);
 	for (uint i = 0u; i < each; i++) {
 		brick_cell_base[first + i] = index;
 		uvec2 mask = occupancy[first + i];

@@ -31,17 +31,16 @@ layout(push_constant, scalar) uniform AllocatePush {
 
 // Walks the brick's stored cells; with `write`, gives them records from `index` on. Returns the count.
 uint walk_brick(uint brick_in_cascade, uint index, bool write) {
-	GiCascade cascade = world.cascades[constants.cascade];
-	uint cell_end = cascade.cell_base + world.cell_capacity;
-	uint record_end = cascade.record_base + world.record_capacity;
-	uint brick = cascade.brick_base + brick_in_cascade;
+	uint last_cell = cell_end(constants.cascade);
+	uint last_record = record_end(constants.cascade);
+	uint brick = brick_base(constants.cascade) + brick_in_cascade;
 	uint axis = world.grid_size / WORLD_BRICK_CELLS;
 	uvec3 corner = 4u * uvec3(brick_in_cascade % axis, (brick_in_cascade / axis) % axis, brick_in_cascade / (axis * axis));
 	uint cell = brick_cell_base[brick];
 	uint total = 0u;
 	for (uint word = 0u; word < 2u; word++) {
 		uint mask = occupancy[brick][word];
-		while (mask != 0u && cell < cell_end) {
+		while (mask != 0u && cell < last_cell) {
 			uint bit = uint(findLSB(mask)) + 32u * word;
 			mask &= mask - 1u;
 			uint faces = cells[cell].records & 63u;
@@ -49,7 +48,7 @@ uint walk_brick(uint brick_in_cascade, uint index, bool write) {
 				uvec3 storage = corner + uvec3(bit & 3u, (bit >> 2) & 3u, bit >> 4);
 				uint record = index + total;
 				cells[cell].records = (record << 6) | faces;
-				for (uint left = faces; left != 0u && record < record_end; left &= left - 1u) {
+				for (uint left = faces; left != 0u && record < last_record; left &= left - 1u) {
 					records[record].cell = (constants.cascade << 27) | (uint(findLSB(left)) << 24) | (storage.z << 16) | (storage.y << 8) | storage.x;
 					record++;
 				}
@@ -69,11 +68,12 @@ void main() {
 	for (uint i = 0u; i < each; i++) {
 		sum += walk_brick(first + i, 0u, false);
 	}
-	uint index = world.cascades[constants.cascade].record_base + scan_group(sum);
+	uint index = record_base(constants.cascade) + scan_group(sum);
 	for (uint i = 0u; i < each; i++) {
 		index += walk_brick(first + i, index, true);
 	}
 	if (gl_LocalInvocationIndex == 0u) {
 		counts[constants.cascade].records = group_total;
+		counts[constants.cascade].light_groups = uvec3(clamp((min(group_total, world.record_capacity) + 7u) / 8u, 1u, 65535u), 1u, 1u);
 	}
 }

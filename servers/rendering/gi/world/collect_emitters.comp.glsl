@@ -39,13 +39,7 @@ float seen_area_m2(WorldRecord record) {
 	uvec3 storage = storage_from_world_cell(record_world_cell(record));
 	uint brick = brick_of_cell(record_cascade(record), storage);
 	uvec2 bits = cells[brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage))].bits;
-	uint mask = 0u;
-	for (uint i = 0u; i < 64u; i++) {
-		if (bit_is_set(bits, i)) {
-			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
-			mask |= 1u << (s[(axis + 1u) % 3u] + 4u * s[(axis + 2u) % 3u]);
-		}
-	}
+	uint mask = columns_of_bits(bits, axis);
 	vec3 size = world.cascades[record_cascade(record)].cell_m;
 	float face_m2 = size[(axis + 1u) % 3u] * size[(axis + 2u) % 3u];
 	return face_m2 * float(bitCount(mask)) / 16.0 / max(abs(record_normal(record)[axis]), 0.2);
@@ -85,7 +79,7 @@ void main() {
 			uint each = (count + 255u) / 256u;
 			uint end = min(count, (lane + 1u) * each);
 			for (uint i = lane * each; i < end; i++) {
-				uint index = world.cascades[c].record_base + i;
+				uint index = record_base(c) + i;
 				float record_power = records[index].emission == 0u ? 0.0 : emitter_power(records[index]);
 				if (!(record_power > 0.0)) {
 					continue;

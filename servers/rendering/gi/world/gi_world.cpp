@@ -42,9 +42,6 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 		shader::GiCascade &cascade = params.cascades[i];
 		const float size = p_desc.min_cell_m * float(1u << i);
 		cascade.cell_m = Vector3(size, size / p_desc.y_multiplier, size);
-		cascade.brick_base = bricks * i;
-		cascade.cell_base = params.cell_capacity * i;
-		cascade.record_base = params.record_capacity * i;
 	}
 	const uint64_t n = p_desc.cascades;
 	params_buffer = make_buffer("gi_world.params", sizeof(shader::GiWorldParams), BUFFER_UNIFORM);
@@ -56,7 +53,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	record_light[0] = make_buffer("gi_world.record_light0", n * params.record_capacity * LIGHT_BYTES);
 	record_light[1] = make_buffer("gi_world.record_light1", n * params.record_capacity * LIGHT_BYTES);
 	record_state = make_buffer("gi_world.record_state", n * params.record_capacity * STATE_BYTES);
-	counts = make_buffer("gi_world.counts", WORLD_MAX_CASCADES * sizeof(shader::CascadeCounts));
+	counts = make_buffer("gi_world.counts", WORLD_MAX_CASCADES * sizeof(shader::CascadeCounts), BUFFER_STORAGE | BUFFER_INDIRECT);
 	emitters = make_buffer("gi_world.emitters", EMITTER_CAPACITY * sizeof(shader::Emitter));
 	emitter_count = make_buffer("gi_world.emitter_count", 8);
 	accumulators = make_buffer("gi_world.accumulators", uint64_t(params.record_capacity) * sizeof(shader::RecordAccumulator));
@@ -110,13 +107,12 @@ uint32_t GiWorld::cull_surfaces(const GiSceneView &p_scene, uint32_t p_cascade, 
 }
 
 void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_scene, uint32_t p_cascade) {
-	const shader::GiCascade &cascade = params.cascades[p_cascade];
 	const uint32_t bricks_axis = world_desc.grid_size / WORLD_BRICK_CELLS;
 	const uint32_t bricks = bricks_axis * bricks_axis * bricks_axis;
 	shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0 };
 	constants.surface_count = cull_surfaces(p_scene, p_cascade, constants.triangle_count);
-	clear_words(r_recorder, "gi_world.clear_occupancy", occupancy, cascade.brick_base * 2, bricks * 2);
-	clear_words(r_recorder, "gi_world.clear_cells", cells, cascade.cell_base * 3, params.cell_capacity * 3);
+	clear_words(r_recorder, "gi_world.clear_occupancy", occupancy, p_cascade * bricks * 2, bricks * 2);
+	clear_words(r_recorder, "gi_world.clear_cells", cells, p_cascade * params.cell_capacity * 3, params.cell_capacity * 3);
 	clear_words(r_recorder, "gi_world.clear_accumulators", accumulators, 0, params.record_capacity * sizeof(shader::RecordAccumulator) / 4);
 
 	// 32768 groups of 64 triangles a row.

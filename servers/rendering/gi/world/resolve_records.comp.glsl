@@ -30,18 +30,6 @@ layout(push_constant, scalar) uniform ResolvePush {
 	VoxelizeConstants constants;
 };
 
-// Columns of sub-voxels along the face's axis that hold a set bit: what of the cell's face a ray sees, of 16.
-uint seen_columns(uvec2 bits, uint axis) {
-	uint mask = 0u;
-	for (uint i = 0u; i < 64u; i++) {
-		if (bit_is_set(bits, i)) {
-			uvec3 s = uvec3(i & 3u, (i >> 2) & 3u, i >> 4);
-			mask |= 1u << (s[(axis + 1u) % 3u] + 4u * s[(axis + 2u) % 3u]);
-		}
-	}
-	return uint(bitCount(mask));
-}
-
 // Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels.
 uint find_start(uint cascade, vec3 position_m, vec3 normal) {
 	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
@@ -60,7 +48,7 @@ void main() {
 	uint count = min(counts[constants.cascade].records, world.record_capacity);
 	uint stride = gl_NumWorkGroups.x * 64u;
 	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
-		uint index = cascade.record_base + i;
+		uint index = record_base(constants.cascade) + i;
 		WorldRecord record = records[index];
 		RecordAccumulator sums = accumulators[i];
 		uint axis = record_face(record) >> 1;
@@ -74,8 +62,8 @@ void main() {
 		vec3 center = vec3(sums.position) / max(float(sums.area), 1.0);
 		ivec3 cell = record_world_cell(record);
 		uvec2 bits = world_cells[find_cell(constants.cascade, storage_from_world_cell(cell))].bits;
-		// Rays see whole sub-voxels: spread the emission over what they see, so that the flux stays.
-		float seen = float(max(seen_columns(bits, axis), 1u)) / 16.0;
+		// What of the cell's face a ray sees, of 16 columns. Rays see whole sub-voxels: spread the emission over what they see, so that the flux stays.
+		float seen = float(max(bitCount(columns_of_bits(bits, axis)), 1)) / 16.0;
 		float coverage = min(1.0, abs(area_vector[axis]) / seen);
 		uvec3 p = uvec3(clamp(center, 0.0, 1.0) * 511.0 + 0.5);
 		record.position = p.x | (p.y << 9) | (p.z << 18);

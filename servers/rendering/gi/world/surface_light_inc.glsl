@@ -63,20 +63,21 @@ vec3 sky_radiance(vec3 direction) {
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }
 
-// Radiance that leaves the hit against `direction`, from the records that face the ray; black behind one-sided surfaces.
-vec3 hit_radiance(WorldHit hit, vec3 direction, bool with_emission) {
+// Radiance that leaves the hit against `direction`, from the records that face the ray; black behind one-sided surfaces. Reflected
+// light is multiplied by `reflected_scale`.
+vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with_emission) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return vec3(0.0);
 	}
 	uint packed_records = world_cells[hit.cell].records;
 	uint faces = packed_records & 63u;
-	uint record_end = world.cascades[hit.cascade].record_base + world.record_capacity;
+	uint end = record_end(hit.cascade);
 	bool split = cell_is_split(faces);
 	float sub_voxel_m = sub_voxel_along_m(hit.cascade, direction);
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint index = packed_records >> 6;
-	for (; faces != 0u && index < record_end; faces &= faces - 1u, index++) {
+	for (; faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
 		vec3 normal = record_normal(record);
 		float facing = -dot(normal, direction);
@@ -91,7 +92,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, bool with_emission) {
 		if (reached && split) {
 			reached = short_way_is_free(hit.cascade, hit.position_m - direction * (0.25 * sub_voxel_m), record_start_m(record));
 		}
-		vec3 radiance = reached ? light.rgb * color_from_unorm111110(record.albedo) : vec3(0.0);
+		vec3 radiance = reached ? light.rgb * color_from_unorm111110(record.albedo) * reflected_scale : vec3(0.0);
 		if (with_emission) {
 			radiance += color_from_rgb9e5(record.emission);
 		}

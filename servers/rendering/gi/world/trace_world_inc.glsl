@@ -34,7 +34,7 @@ uint find_cell(uint cascade, uvec3 storage) {
 		return WORLD_NO_CELL;
 	}
 	uint index = world_brick_cell_base[brick] + bits_below(mask, bit);
-	return index < world.cascades[cascade].cell_base + world.cell_capacity ? index : WORLD_LOST_CELL;
+	return index < cell_end(cascade) ? index : WORLD_LOST_CELL;
 }
 
 // Distance in cells to the nearest stored cell's centre, rounded down to an eighth.

@@ -20,7 +20,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	uvec3 storage = storage_from_world_cell(cell + world.cascades[constants.cascade].origin_cells);
 	uint brick = brick_of_cell(constants.cascade, storage);
 	uint index = brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage));
-	if (index >= world.cascades[constants.cascade].cell_base + world.cell_capacity) {
+	if (index >= cell_end(constants.cascade)) {
 		return;
 	}
 	MaterialData material = materials[surfaces[triangle.surface].material];

@@ -14,11 +14,29 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_PARAMS), scalar) uniform WorldPara
 	GiWorldParams world;
 };
 
+// First brick, stored cell and record of a cascade: every cascade has the same room.
+uint brick_base(uint cascade) {
+	uint bricks = world.grid_size / WORLD_BRICK_CELLS;
+	return cascade * bricks * bricks * bricks;
+}
+uint cell_base(uint cascade) {
+	return cascade * world.cell_capacity;
+}
+uint record_base(uint cascade) {
+	return cascade * world.record_capacity;
+}
+uint cell_end(uint cascade) {
+	return (cascade + 1u) * world.cell_capacity;
+}
+uint record_end(uint cascade) {
+	return (cascade + 1u) * world.record_capacity;
+}
+
 // Brick index and bit of a cell given by wrapped storage coordinates.
 uint brick_of_cell(uint cascade, uvec3 storage) {
 	uint bricks = world.grid_size / WORLD_BRICK_CELLS;
 	uvec3 brick = storage >> 2;
-	return world.cascades[cascade].brick_base + (brick.z * bricks + brick.y) * bricks + brick.x;
+	return ((cascade * bricks + brick.z) * bricks + brick.y) * bricks + brick.x;
 }
 uint bit_of_cell(uvec3 storage) {
 	uvec3 local = storage & 3u;
@@ -37,6 +55,26 @@ uint bits_below(uvec2 mask, uint bit) {
 }
 bool bit_is_set(uvec2 mask, uint bit) {
 	return ((bit < 32u ? mask.x >> bit : mask.y >> (bit - 32u)) & 1u) != 0u;
+}
+
+// The 4 x 4 columns along an axis that hold a set bit: bit s[axis + 1] + 4 s[axis + 2].
+uint columns_of_bits(uvec2 bits, uint axis) {
+	uint layers[4] = uint[](bits.x & 0xFFFFu, bits.x >> 16, bits.y & 0xFFFFu, bits.y >> 16);
+	if (axis == 2u) {
+		return layers[0] | layers[1] | layers[2] | layers[3];
+	}
+	uint mask = 0u;
+	for (uint z = 0u; z < 4u; z++) {
+		uint l = layers[z];
+		if (axis == 1u) {
+			uint x = (l | (l >> 4) | (l >> 8) | (l >> 12)) & 15u;
+			mask |= ((x & 1u) | ((x & 2u) << 3) | ((x & 4u) << 6) | ((x & 8u) << 9)) << z;
+		} else {
+			uint y = (l | (l >> 1) | (l >> 2) | (l >> 3)) & 0x1111u;
+			mask |= ((y & 1u) | ((y >> 3) & 2u) | ((y >> 6) & 4u) | ((y >> 9) & 8u)) << (4u * z);
+		}
+	}
+	return mask;
 }
 
 uint face_from_normal(vec3 n) {

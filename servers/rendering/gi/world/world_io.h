@@ -40,9 +40,6 @@ INTEROP_BEGIN
 struct GiCascade {
 	ivec3 origin_cells; // world-fixed coordinates of the lowest cell
 	vec3 cell_m; // size of a cell; y is smaller by the y scale
-	uint brick_base; // first brick
-	uint cell_base; // first stored cell
-	uint record_base; // first record
 };
 struct GiWorldParams {
 	GiCascade cascades[WORLD_MAX_CASCADES];
@@ -76,6 +73,7 @@ struct RecordAccumulator {
 struct CascadeCounts {
 	uint cells;
 	uint records;
+	uvec3 light_groups; // indirect arguments: a work group for eight records
 };
 struct VoxelizeConstants {
 	uint cascade;
@@ -99,8 +97,8 @@ struct Emitter {
 	float area_m2; // that rays see
 };
 INTEROP_END
-INTEROP_SIZE(GiCascade, 36)
-INTEROP_SIZE(GiWorldParams, 312)
+INTEROP_SIZE(GiCascade, 24)
+INTEROP_SIZE(GiWorldParams, 216)
 INTEROP_SIZE(WorldCell, 12)
 INTEROP_SIZE(WorldRecord, 20)
 INTEROP_SIZE(RecordAccumulator, 52)
