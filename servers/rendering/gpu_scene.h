@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // The device's copy of a RenderScene: geometry arenas, instances, materials, lights. Uploads only what changed.
-// (Interface that GI relies on; the renderer's owner adds what the raster passes need.)
 
-#include "servers/rendering/device/resource_types.h"
-#include "servers/rendering/render_scene.h"
+#include "servers/rendering/gpu_assets.h"
 #include "servers/rendering/shaders/scene_io.h"
 
 #include <vector>
@@ -33,6 +31,60 @@ struct GiSceneView {
 
 	TextureHandle sky_octahedral; // RGBA16F, square, world directions (octahedral_inc.glsl), radiance with energy; the background colour where there is no sky; no sun disc
 	Vector3 ambient_color{ 0.0f }; // what lights a point outside of every cascade
+};
+
+// One surface of one visible instance.
+struct SceneDraw {
+	SurfaceGeometry geometry;
+	uint32_t instance = 0; // into the instances buffer
+	uint32_t material = 0; // into the materials buffer
+	uint32_t layers = 1;
+	MaterialCull cull = MaterialCull::BACK;
+	MaterialBlend blend = MaterialBlend::MIX;
+	bool mirrored = false;
+	bool transparent = false; // drawn in the transparent pass
+	bool scissor = false;
+	bool drawn = true; // false: shadows only
+	bool casts_shadow = true;
+	int32_t render_priority = 0;
+	AABB box; // world
+};
+
+// One scenario on the device.
+class GpuScene {
+public:
+	GpuScene(RenderingDevice &p_device, ScenarioRid p_scenario) :
+			device(p_device), scenario_rid(p_scenario) {}
+	// The assets must have been updated first.
+	void update(const RenderScene &p_scene, const GpuAssets &p_assets);
+
+	ScenarioRid scenario() const { return scenario_rid; }
+	// Sorted by state, material and geometry, so that equal neighbours become one instanced draw.
+	const std::vector<SceneDraw> &draws() const { return scene_draws; }
+	const AABB &bounds() const { return scene_bounds; } // of what is drawn or casts shadows
+	const std::vector<shader::LightData> &lights() const { return light_values; }
+	const std::vector<LightRid> &light_rids() const { return light_ids; }
+	// p_shadow_indices: LightData::shadow_index of each light.
+	void set_shadow_indices(const std::vector<int> &p_shadow_indices);
+	// All but the sky.
+	const GiSceneView &gi_view() const { return view; }
+
+private:
+	void collect(const RenderScene &p_scene, const GpuAssets &p_assets);
+	void collect_lights(const RenderScene &p_scene);
+	void collect_instance(const RenderScene &p_scene, const GpuAssets &p_assets, const Instance &p_instance, const Mesh &p_mesh);
+	void upload_lights();
+
+	RenderingDevice &device;
+	ScenarioRid scenario_rid;
+	uint64_t scene_version = 0;
+	std::vector<SceneDraw> scene_draws;
+	AABB scene_bounds;
+	std::vector<shader::InstanceData> instance_values, uploaded_instances;
+	std::vector<shader::LightData> light_values, uploaded_lights;
+	std::vector<LightRid> light_ids;
+	GrowingBuffer instances_buffer, lights_buffer;
+	GiSceneView view;
 };
 
 } // namespace lucent

@@ -33,10 +33,35 @@ struct SceneTexture {
 	uint64_t version = 0;
 };
 
-enum class TextureSlot : uint8_t { ALBEDO, NORMAL, METALLIC, ROUGHNESS, OCCLUSION, EMISSION, COUNT };
-enum class TextureChannel : uint8_t { RED, GREEN, BLUE, ALPHA, GRAYSCALE };
-enum class TextureWrap : uint8_t { REPEAT, MIRRORED_REPEAT, CLAMP };
-enum class TextureFilter : uint8_t { NEAREST, LINEAR, NEAREST_MIPMAPS, LINEAR_MIPMAPS, NEAREST_MIPMAPS_ANISOTROPIC, LINEAR_MIPMAPS_ANISOTROPIC };
+enum class TextureSlot : uint8_t {
+	ALBEDO,
+	NORMAL,
+	METALLIC,
+	ROUGHNESS,
+	OCCLUSION,
+	EMISSION,
+	COUNT
+};
+enum class TextureChannel : uint8_t {
+	RED,
+	GREEN,
+	BLUE,
+	ALPHA,
+	GRAYSCALE
+};
+enum class TextureWrap : uint8_t {
+	REPEAT,
+	MIRRORED_REPEAT,
+	CLAMP
+};
+enum class TextureFilter : uint8_t {
+	NEAREST,
+	LINEAR,
+	NEAREST_MIPMAPS,
+	LINEAR_MIPMAPS,
+	NEAREST_MIPMAPS_ANISOTROPIC,
+	LINEAR_MIPMAPS_ANISOTROPIC
+};
 
 struct TextureRef {
 	TextureRid texture; // invalid: none
@@ -51,9 +76,23 @@ struct TextureRef {
 	TextureChannel channel = TextureChannel::RED; // single-channel slots
 };
 
-enum class TransparencyMode : uint8_t { OPAQUE, ALPHA_BLEND, ALPHA_SCISSOR };
-enum class MaterialBlend : uint8_t { MIX, ADD, SUB, MUL, PREMULTIPLIED };
-enum class MaterialCull : uint8_t { BACK, FRONT, DISABLED };
+enum class TransparencyMode : uint8_t {
+	OPAQUE,
+	ALPHA_BLEND,
+	ALPHA_SCISSOR
+};
+enum class MaterialBlend : uint8_t {
+	MIX,
+	ADD,
+	SUB,
+	MUL,
+	PREMULTIPLIED
+};
+enum class MaterialCull : uint8_t {
+	BACK,
+	FRONT,
+	DISABLED
+};
 
 // StandardMaterial3D, resolved. The BRDF is glTF's: Lambert (1 - metallic) + GGX/Smith with Schlick's Fresnel.
 struct Material {
@@ -96,9 +135,21 @@ struct Mesh {
 	uint64_t version = 0;
 };
 
-enum class LightType : uint8_t { DIRECTIONAL, OMNI, SPOT };
-enum class LightBakeMode : uint8_t { DISABLED, STATIC, DYNAMIC };
-enum class SkyMode : uint8_t { LIGHT_AND_SKY, LIGHT_ONLY, SKY_ONLY }; // directional lights
+enum class LightType : uint8_t {
+	DIRECTIONAL,
+	OMNI,
+	SPOT
+};
+enum class LightBakeMode : uint8_t {
+	DISABLED,
+	STATIC,
+	DYNAMIC
+};
+enum class SkyMode : uint8_t {
+	LIGHT_AND_SKY,
+	LIGHT_ONLY,
+	SKY_ONLY
+}; // directional lights
 
 // Shines along the instance's -z. Attenuation (Godot): (1 - (d/range)^4)^2 clamped * d^-decay for positional lights; spots are
 // multiplied by 1 - pow(max(1e-3, (1 - cos) / (1 - cos(spot_angle))), spot_attenuation).
@@ -125,8 +176,17 @@ struct Light {
 	uint64_t version = 0;
 };
 
-enum class GiMode : uint8_t { DISABLED, STATIC, DYNAMIC };
-enum class ShadowCasting : uint8_t { OFF, ON, DOUBLE_SIDED, SHADOWS_ONLY };
+enum class GiMode : uint8_t {
+	DISABLED,
+	STATIC,
+	DYNAMIC
+};
+enum class ShadowCasting : uint8_t {
+	OFF,
+	ON,
+	DOUBLE_SIDED,
+	SHADOWS_ONLY
+};
 
 struct Instance {
 	MeshRid mesh; // at most one of mesh and light is valid
@@ -134,6 +194,7 @@ struct Instance {
 	ScenarioRid scenario;
 	Transform3D transform;
 	Transform3D previous_transform; // of the last drawn frame
+	bool drawn = false; // in any frame; until then previous_transform follows transform
 	bool visible = true;
 	GiMode gi_mode = GiMode::STATIC;
 	ShadowCasting shadow_casting = ShadowCasting::ON;
@@ -144,7 +205,10 @@ struct Instance {
 	uint64_t version = 0;
 };
 
-enum class SkyKind : uint8_t { PROCEDURAL, PANORAMA };
+enum class SkyKind : uint8_t {
+	PROCEDURAL,
+	PANORAMA
+};
 
 struct Sky {
 	SkyKind kind = SkyKind::PROCEDURAL;
@@ -165,9 +229,27 @@ struct Sky {
 	uint64_t version = 0;
 };
 
-enum class BackgroundMode : uint8_t { CLEAR_COLOR, COLOR, SKY, CANVAS, KEEP, CAMERA_FEED };
-enum class AmbientSource : uint8_t { BACKGROUND, DISABLED, COLOR, SKY };
-enum class ToneMapper : uint8_t { LINEAR, REINHARD, FILMIC, ACES, AGX };
+enum class BackgroundMode : uint8_t {
+	CLEAR_COLOR,
+	COLOR,
+	SKY,
+	CANVAS,
+	KEEP,
+	CAMERA_FEED
+};
+enum class AmbientSource : uint8_t {
+	BACKGROUND,
+	DISABLED,
+	COLOR,
+	SKY
+};
+enum class ToneMapper : uint8_t {
+	LINEAR,
+	REINHARD,
+	FILMIC,
+	ACES,
+	AGX
+};
 
 struct Environment {
 	BackgroundMode background = BackgroundMode::CLEAR_COLOR;
@@ -188,7 +270,11 @@ struct Environment {
 };
 
 struct Camera {
-	enum class Kind : uint8_t { PERSPECTIVE, ORTHOGONAL, FRUSTUM };
+	enum class Kind : uint8_t {
+		PERSPECTIVE,
+		ORTHOGONAL,
+		FRUSTUM
+	};
 	Kind kind = Kind::PERSPECTIVE;
 	Transform3D transform;
 	float fov_degrees = 75.0f; // vertical when keep_height, else horizontal
@@ -225,7 +311,18 @@ struct ViewportImage {
 	std::vector<float> values;
 };
 
-enum class ViewportBuffer : uint8_t { COLOR_LINEAR, COLOR_DISPLAY, DIRECT, INDIRECT_DIFFUSE, INDIRECT_SPECULAR, EMISSION, ALBEDO, NORMAL, DEPTH, MOTION };
+enum class ViewportBuffer : uint8_t {
+	COLOR_LINEAR,
+	COLOR_DISPLAY,
+	DIRECT,
+	INDIRECT_DIFFUSE,
+	INDIRECT_SPECULAR,
+	EMISSION,
+	ALBEDO,
+	NORMAL,
+	DEPTH,
+	MOTION
+};
 
 struct Viewport {
 	ScenarioRid scenario;

@@ -102,6 +102,9 @@ void RenderingServer::Impl::mark_sky_users(SkyRid p_sky) {
 RenderingServer::RenderingServer(RenderingDevice *p_device) :
 		impl(std::make_unique<Impl>()) {
 	impl->device = p_device;
+	if (p_device != nullptr) {
+		impl->frame_renderer = std::make_unique<FrameRenderer>(*p_device);
+	}
 }
 
 RenderingServer::~RenderingServer() = default;

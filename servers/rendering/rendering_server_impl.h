@@ -2,12 +2,14 @@
 #pragma once
 // Private to rendering_server*.cpp: the scene's edits and what they make dirty.
 
+#include "servers/rendering/frame_renderer.h"
 #include "servers/rendering/rendering_server.h"
 
 namespace lucent {
 
 struct RenderingServer::Impl {
 	RenderingDevice *device = nullptr;
+	std::unique_ptr<FrameRenderer> frame_renderer; // null without a device
 	RenderScene scene;
 	std::vector<InstanceRid> moved; // since the last drawn frame
 
@@ -38,6 +40,9 @@ void RenderingServer::Impl::edit_instance(InstanceRid p_rid, Instance &r_instanc
 	const ScenarioRid old_scenario = r_instance.scenario;
 	const bool was_light = is_light(r_instance);
 	p_edit(r_instance);
+	if (!r_instance.drawn) {
+		r_instance.previous_transform = r_instance.transform;
+	}
 	r_instance.version = next_version();
 	AABB new_box = r_instance.visible ? instance_box(r_instance) : AABB();
 	if (old_scenario == r_instance.scenario && was_light == is_light(r_instance)) {

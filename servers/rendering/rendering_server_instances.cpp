@@ -57,7 +57,7 @@ void RenderingServer::instance_set_scenario(InstanceRid p_instance, ScenarioRid 
 	ERR_FAIL_COND_MSG(p_scenario.is_valid() && impl->scene.scenarios.get(p_scenario) == nullptr, "no such scenario");
 	impl->edit_instance(p_instance, *instance, [&](Instance &r_instance) {
 		r_instance.scenario = p_scenario;
-		r_instance.previous_transform = r_instance.transform;
+		r_instance.drawn = false;
 	});
 }
 

@@ -15,6 +15,8 @@ void RenderingServer::viewport_set_size(ViewportRid p_viewport, uint32_t p_width
 	Viewport *viewport = impl->scene.viewports.get(p_viewport);
 	ERR_FAIL_COND_MSG(viewport == nullptr, "no such viewport");
 	ERR_FAIL_COND_MSG(p_width == 0 || p_height == 0 || p_width > MAX_VIEWPORT_TEXELS || p_height > MAX_VIEWPORT_TEXELS, "{}x{} is outside of 1 to {} an axis", p_width, p_height, MAX_VIEWPORT_TEXELS);
+	const uint32_t limit = impl->device != nullptr ? impl->device->info().max_texture_2d_texels : MAX_VIEWPORT_TEXELS;
+	ERR_FAIL_COND_MSG(p_width > limit || p_height > limit, "{}x{} exceeds the device's limit of {} an axis", p_width, p_height, limit);
 	viewport->width = p_width;
 	viewport->height = p_height;
 }
@@ -45,22 +47,34 @@ void RenderingServer::viewport_set_aov(ViewportRid p_viewport, bool p_enabled) {
 	viewport->aov = p_enabled;
 }
 
-ViewportImage RenderingServer::viewport_get_image(ViewportRid p_viewport, ViewportBuffer) {
+ViewportImage RenderingServer::viewport_get_image(ViewportRid p_viewport, ViewportBuffer p_buffer) {
 	ERR_FAIL_COND_V_MSG(impl->scene.viewports.get(p_viewport) == nullptr, ViewportImage(), "no such viewport");
 	ERR_FAIL_COND_V_MSG(impl->device == nullptr, ViewportImage(), "the server has no device");
-	return {};
+	ViewportImage image = impl->frame_renderer->read_back(p_viewport, p_buffer);
+	ERR_FAIL_COND_V_MSG(image.values.empty(), ViewportImage(), "the viewport has not been drawn, or not with this buffer");
+	return image;
 }
 
 void RenderingServer::draw() {
 	ERR_FAIL_COND_MSG(impl->device == nullptr, "the server has no device");
+	impl->frame_renderer->draw(impl->scene);
+	for (const InstanceRid rid : impl->moved) {
+		if (Instance *instance = impl->scene.instances.get(rid)) {
+			instance->previous_transform = instance->transform;
+			instance->drawn = true;
+		}
+	}
+	// The next frame uploads the previous transforms.
+	impl->scene.version += impl->moved.empty() ? 0 : 1;
+	impl->moved.clear();
 }
 
 FrameStats RenderingServer::get_frame_stats() const {
-	return {};
+	return impl->frame_renderer != nullptr ? impl->frame_renderer->stats() : FrameStats();
 }
 
 std::vector<std::string> RenderingServer::get_debug_views() const {
-	return {};
+	return FrameRenderer::debug_views();
 }
 
 void RenderingServer::free(TextureRid p_rid) {

@@ -1,0 +1,11 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// SPDX-License-Identifier: MIT
+#include "servers/rendering/passes/vertex_inc.glsl"
+layout(push_constant, scalar) uniform Constants { ShadowDrawConstants draw; };
+
+void main() {
+	InstanceData instance = instances[draw_instances[gl_InstanceIndex]];
+	gl_Position = draw.clip_from_world * vec4(world_position(instance, positions[gl_VertexIndex]), 1.0);
+}
