@@ -33,9 +33,20 @@ Transform3D looking_down(const Vector3 &p_origin) {
 	return { Basis(Vector3(1, 0, 0), Vector3(0, 0, -1), Vector3(0, 1, 0)), p_origin };
 }
 
+// One for all cases: its pipelines are compiled once.
+RenderingDevice &test_device() {
+	static const std::unique_ptr<RenderingDevice> device = [] {
+		Result<std::unique_ptr<RenderingDeviceDriver>> driver = create_vulkan_driver({ test::options().device, true });
+		REQUIRE_MESSAGE(driver.ok(), driver.error().message);
+		Result<std::unique_ptr<RenderingDevice>> created = RenderingDevice::create(driver.take());
+		REQUIRE_MESSAGE(created.ok(), created.error().message);
+		return created.take();
+	}();
+	return *device;
+}
+
 // A floor of 4 m, seen from 3 m above; the camera's up is -z.
 struct Stage {
-	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<RenderingServer> server;
 	ScenarioRid scenario;
 	EnvironmentRid environment;
@@ -44,12 +55,7 @@ struct Stage {
 	CameraRid camera;
 
 	Stage() {
-		Result<std::unique_ptr<RenderingDeviceDriver>> driver = create_vulkan_driver({ test::options().device, true });
-		REQUIRE_MESSAGE(driver.ok(), driver.error().message);
-		Result<std::unique_ptr<RenderingDevice>> created = RenderingDevice::create(driver.take());
-		REQUIRE_MESSAGE(created.ok(), created.error().message);
-		device = created.take();
-		server = std::make_unique<RenderingServer>(device.get());
+		server = std::make_unique<RenderingServer>(&test_device());
 		scenario = server->scenario_create();
 		environment = server->environment_create();
 		server->environment_set_background(environment, BackgroundMode::COLOR);
