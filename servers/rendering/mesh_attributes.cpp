@@ -51,8 +51,8 @@ std::vector<Vector4> generate_tangents(const MeshSurface &p_surface, const std::
 		const Vector3 flat = along_u[i] - normal * glm::dot(normal, along_u[i]);
 		const float length = glm::length(flat);
 		const Vector3 tangent = length > 0.0f ? flat / length : any_perpendicular(normal);
-		// uv's v points down in images, so glTF's bitangent is where v shrinks; its w is 1 for that.
-		const float handedness = glm::dot(glm::cross(normal, tangent), along_v[i]) < 0.0f ? -1.0f : 1.0f;
+		// Normal maps' y points up in the image, where v shrinks: w is 1 where that is cross(normal, tangent).
+		const float handedness = glm::dot(glm::cross(normal, tangent), along_v[i]) > 0.0f ? -1.0f : 1.0f;
 		tangents[i] = Vector4(tangent, handedness);
 	}
 	return tangents;

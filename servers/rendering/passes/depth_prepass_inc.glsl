@@ -10,9 +10,8 @@ layout(push_constant, scalar) uniform Constants { DrawConstants draw; };
 
 void write_surface() {
 	MaterialUvs uvs = MaterialUvs(v_uvs.xy, v_uvs.zw);
-	vec3 normal = normalize(v_normal) * (gl_FrontFacing ? 1.0 : -1.0);
-	vec3 mapped = material_normal(draw.material, uvs, normal, v_tangent);
-	out_normal_roughness = vec4(mapped, material_roughness(draw.material, uvs));
+	vec3 mapped = material_normal(draw.material, uvs, normalize(v_normal), v_tangent);
+	out_normal_roughness = vec4(gl_FrontFacing ? mapped : -mapped, material_roughness(draw.material, uvs));
 	bool seen = v_previous_clip.w > 1e-6 && v_clip.w > 1e-6;
 	out_motion = seen ? 0.5 * (v_clip.xy / v_clip.w - v_previous_clip.xy / v_previous_clip.w) : vec2(0.0);
 }

@@ -18,8 +18,7 @@ GiLight screen_gi() {
 Surface fragment_surface(out Lighting r_lighting) {
 	MaterialUvs uvs = MaterialUvs(v_uvs.xy, v_uvs.zw);
 	vec3 albedo = material_albedo(draw.material, uvs, v_color).rgb;
-	vec3 normal = normalize(v_normal) * (gl_FrontFacing ? 1.0 : -1.0);
-	Surface s = make_surface(draw.material, uvs, albedo, v_position, normal, v_tangent);
+	Surface s = make_surface(draw.material, uvs, albedo, v_position, normalize(v_normal), v_tangent, gl_FrontFacing ? 1.0 : -1.0);
 	if ((materials[draw.material].flags & MATERIAL_FLAG_UNSHADED) != 0u) {
 		r_lighting = Lighting(vec3(0.0), vec3(0.0), vec3(0.0));
 		s.emission = albedo;

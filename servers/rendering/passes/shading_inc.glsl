@@ -40,11 +40,12 @@ struct GiLight {
 	vec4 radiance;
 };
 
-Surface make_surface(uint material, MaterialUvs uvs, vec3 albedo, vec3 position, vec3 normal, vec4 tangent) {
+// normal: of the front; side: -1 where the back is seen.
+Surface make_surface(uint material, MaterialUvs uvs, vec3 albedo, vec3 position, vec3 normal, vec4 tangent, float side) {
 	Surface s;
 	s.position = position;
-	s.geometric_normal = normal;
-	s.normal = material_normal(material, uvs, normal, tangent);
+	s.geometric_normal = normal * side;
+	s.normal = material_normal(material, uvs, normal, tangent) * side;
 	s.view = frame.views[0].orthogonal != 0u ? frame.views[0].camera_back : normalize(frame.views[0].camera_position - position);
 	float metallic = material_metallic(material, uvs);
 	float specular = materials[material].specular;

@@ -18,8 +18,7 @@ void main() {
 		discard;
 	}
 	float alpha = (flags & MATERIAL_FLAG_ALPHA_BLEND) != 0u ? clamp(albedo.a, 0.0, 1.0) : 1.0;
-	vec3 normal = normalize(v_normal) * (gl_FrontFacing ? 1.0 : -1.0);
-	Surface s = make_surface(draw.material, uvs, albedo.rgb, v_position, normal, v_tangent);
+	Surface s = make_surface(draw.material, uvs, albedo.rgb, v_position, normalize(v_normal), v_tangent, gl_FrontFacing ? 1.0 : -1.0);
 	vec3 color = albedo.rgb;
 	if ((flags & MATERIAL_FLAG_UNSHADED) == 0u) {
 		Lighting lighting = shade(s, gl_FragCoord.xy, GiLight(vec4(0.0), vec4(0.0)));
