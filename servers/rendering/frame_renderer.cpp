@@ -6,9 +6,6 @@
 namespace lucent {
 
 namespace {
-// False until gi/sdfgi is linked in.
-constexpr bool SDFGI_LINKED = false;
-
 // Uploads where something changed; never leaves the buffer empty.
 void upload_draw_instances(RenderingDevice &p_device, const std::vector<uint32_t> &p_instances, ViewportState &r_state) {
 	const bool remade = r_state.draw_instances.reserve(p_device, p_instances.size() * sizeof(uint32_t), BUFFER_STORAGE, "frame.draw_instances");
@@ -41,7 +38,7 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	r_state.targets.resize(device, p_viewport.width, p_viewport.height, p_viewport.aov);
 	const ScreenTargets &targets = r_state.targets;
 	FrameSetup setup = make_frame_setup(p_scene, p_viewport, scenario, camera, r_world.scene);
-	setup.frame.gi_enabled = SDFGI_LINKED && setup.environment->sdfgi.enabled ? 1 : 0;
+	setup.frame.gi_enabled = setup.environment->sdfgi.enabled ? 1 : 0;
 	if (r_state.drawn) {
 		setup.frame.views[0].previous_clip_from_world = r_state.previous_clip_from_world;
 	}
@@ -89,40 +86,30 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	r_state.drawn = true;
 }
 
-void FrameRenderer::update_gi([[maybe_unused]] PassRecorder &r_recorder, [[maybe_unused]] const FrameSetup &p_setup, [[maybe_unused]] World &r_world, [[maybe_unused]] const ViewportState &p_state) {
-	if constexpr (SDFGI_LINKED) {
-		if (r_world.gi == nullptr) {
-			r_world.gi = std::make_shared<Sdfgi>(device);
-		}
-		GiSceneView view = r_world.scene.gi_view();
-		view.sky_octahedral = p_state.sky.octahedral();
-		view.ambient_color = p_setup.frame.ambient_color;
-		r_world.gi->update(r_recorder, p_setup.environment->sdfgi, view, p_setup.frame.views[0].camera_position);
-		frame_stats.gi = r_world.gi->stats();
+void FrameRenderer::update_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state) {
+	if (r_world.gi == nullptr) {
+		r_world.gi = std::make_shared<Sdfgi>(device);
 	}
+	GiSceneView view = r_world.scene.gi_view();
+	view.sky_octahedral = p_state.sky.octahedral();
+	view.ambient_color = p_setup.frame.ambient_color;
+	r_world.gi->update(r_recorder, p_setup.environment->sdfgi, view, p_setup.frame.views[0].camera_position);
+	frame_stats.gi = r_world.gi->stats();
 }
 
-void FrameRenderer::gather_gi([[maybe_unused]] PassRecorder &r_recorder, [[maybe_unused]] const FrameSetup &p_setup, [[maybe_unused]] World &r_world, [[maybe_unused]] const ViewportState &p_state) {
-	if constexpr (SDFGI_LINKED) {
-		r_world.gi->gather(r_recorder, gather_inputs(p_setup, p_state));
-	}
+void FrameRenderer::gather_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state) {
+	r_world.gi->gather(r_recorder, gather_inputs(p_setup, p_state));
 }
 
-void FrameRenderer::draw_debug_view([[maybe_unused]] PassRecorder &r_recorder, const std::string &p_view, [[maybe_unused]] const FrameSetup &p_setup, [[maybe_unused]] World &r_world, [[maybe_unused]] const ViewportState &p_state) {
-	bool known = false;
-	if constexpr (SDFGI_LINKED) {
-		known = r_world.gi != nullptr && r_world.gi->draw_debug_view(r_recorder, p_view, gather_inputs(p_setup, p_state), p_state.targets.color);
-	}
+void FrameRenderer::draw_debug_view(PassRecorder &r_recorder, const std::string &p_view, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state) {
+	const bool known = r_world.gi != nullptr && r_world.gi->draw_debug_view(r_recorder, p_view, gather_inputs(p_setup, p_state), p_state.targets.color);
 	if (!known) {
 		log_warning_once("debug view " + p_view, fmt::format("there is no debug view '{}', or SDFGI is off", p_view));
 	}
 }
 
 std::vector<std::string> FrameRenderer::debug_views() {
-	if constexpr (SDFGI_LINKED) {
-		return Sdfgi::debug_views();
-	}
-	return {};
+	return Sdfgi::debug_views();
 }
 
 void FrameRenderer::draw(RenderScene &r_scene) {
@@ -153,6 +140,12 @@ void FrameRenderer::draw(RenderScene &r_scene) {
 		scenario->dirty.clear();
 	});
 	device.end_frame();
+	for (auto &[index, entry] : worlds) {
+		if (entry.second->gi != nullptr) {
+			entry.second->gi->after_frame();
+			frame_stats.gi = entry.second->gi->stats();
+		}
+	}
 	for (const PassTiming &timing : device.timings()) {
 		frame_stats.pass_ms.emplace_back(timing.name, timing.gpu_ms);
 	}

@@ -9,6 +9,7 @@
 #include <random>
 
 using namespace lucent;
+using lucent::test::GpuFixture;
 
 namespace {
 

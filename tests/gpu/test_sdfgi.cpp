@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace lucent;
+using lucent::test::GpuFixture;
 
 namespace {
 
