@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "servers/rendering/render_scene.h"
+
+namespace lucent {
+
+// Around every visible mesh of the scene, in world space; empty without any.
+AABB visible_bounds(const RenderScene &p_scene);
+
+struct Framing {
+	Transform3D transform;
+	float near_m = 0.05f;
+	float far_m = 4000.0f;
+};
+// Where a perspective camera stands so that p_bounds just fits into the picture, seen from the front, the right and above.
+Framing frame_bounds(const AABB &p_bounds, float p_fov_y_degrees, float p_aspect);
+
+} // namespace lucent

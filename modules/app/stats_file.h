@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "modules/app/render_options.h"
+#include "servers/rendering/rendering_server.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lucent {
+
+// GPU times over the frames of a run.
+class PassTimes {
+public:
+	struct Pass {
+		std::string name;
+		double sum_ms = 0.0;
+		double last_ms = 0.0; // in the last frame that had it
+		uint32_t last_frame = 0;
+	};
+
+	void add(const std::vector<std::pair<std::string, double>> &p_frame);
+	const std::vector<Pass> &passes() const { return entries; }
+	uint32_t frames() const { return frame_count; }
+
+private:
+	std::vector<Pass> entries; // in order of appearance
+	uint32_t frame_count = 0; // with times
+};
+
+// What --stats reports besides what server and device know.
+struct RenderSummary {
+	uint32_t frames = 0;
+	bool converged = false;
+	PassTimes passes;
+	double load_s = 0.0; // wall clock: start to first frame
+	double render_s = 0.0; // first frame to last picture
+	double total_s = 0.0;
+};
+
+// The JSON text of --stats.
+std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_summary, const RenderingServer &p_server);
+
+} // namespace lucent
