@@ -3,6 +3,7 @@
 
 #include "modules/scene/camera_3d.h"
 #include "modules/scene/light_3d.h"
+#include "modules/scene/resource_loader.h"
 #include "servers/core/file_io.h"
 
 #include <map>
@@ -250,6 +251,15 @@ Result<Ref<scene::PackedScene>> load_gltf_scene(const std::string &p_path, int32
 		packed.value()->set_path(p_path);
 	}
 	return packed;
+}
+
+void register_gltf_loaders() {
+	const auto load = [](const std::string &p_path) -> Result<Ref<Resource>> {
+		const Result<Ref<PackedScene>> packed = load_gltf_scene(p_path);
+		return packed ? Result<Ref<Resource>>(packed.value()) : Result<Ref<Resource>>(packed.error());
+	};
+	scene::ResourceLoader::register_loader("gltf", load);
+	scene::ResourceLoader::register_loader("glb", load);
 }
 
 } // namespace lucent

@@ -15,4 +15,7 @@ Result<Ref<scene::PackedScene>> gltf_to_scene(GltfDocument p_document, const std
 // Reads the file and logs its warnings.
 Result<Ref<scene::PackedScene>> load_gltf_scene(const std::string &p_path, int32_t p_scene = -1);
 
+// ResourceLoader reads .gltf and .glb as PackedScenes from now on.
+void register_gltf_loaders();
+
 } // namespace lucent

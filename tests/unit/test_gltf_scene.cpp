@@ -3,7 +3,9 @@
 #include "modules/scene/camera_3d.h"
 #include "modules/scene/light_3d.h"
 #include "modules/scene/register_scene_types.h"
+#include "modules/scene/resource_loader.h"
 #include "modules/scene/scene_context.h"
+#include "tests/test_support.h"
 #include "tests/unit/gltf_builder.h"
 
 #include <doctest/doctest.h>
@@ -93,4 +95,15 @@ TEST_CASE("glTF scene: copies share resources; another scene can be chosen") {
 	CHECK(load(0).value()->instantiate().value()->get_child(0)->get_name() == "a");
 	CHECK(!load(2).ok());
 	CHECK(!load_gltf_scene("/nonexistent/a.gltf").ok());
+}
+
+TEST_CASE("glTF scene: ResourceLoader reads .gltf and .glb") {
+	scene::register_scene_classes();
+	register_gltf_loaders();
+	const std::string path = lucent::test::options().root + "doc/samples/cornell/cornell.glb";
+	const Result<Ref<Resource>> resource = scene::ResourceLoader::load(path);
+	REQUIRE(resource.ok());
+	const Ref<scene::PackedScene> packed = std::dynamic_pointer_cast<scene::PackedScene>(resource.value());
+	REQUIRE(packed);
+	CHECK(packed->instantiate().value()->get_child_count() > 0);
 }
