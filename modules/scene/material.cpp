@@ -5,6 +5,11 @@
 
 namespace lucent::scene {
 
+void Material::set_render_priority(int p_priority) {
+	render_priority = p_priority;
+	state_changed();
+}
+
 void BaseMaterial3D::set_state(const State &p_state) {
 	state = p_state;
 	state_changed();
@@ -69,7 +74,7 @@ lucent::Material BaseMaterial3D::resolve(SceneContext &p_context) const {
 	material.cull = state.cull_mode;
 	material.unshaded = state.shading_mode == MaterialShading::UNSHADED;
 	material.vertex_color_use_as_albedo = state.vertex_color_use_as_albedo;
-	material.render_priority = state.render_priority;
+	material.render_priority = get_render_priority();
 	const auto set_texture = [&](TextureSlot p_slot, const Ref<Texture2D> &p_texture, TextureChannel p_channel, bool p_uv2) {
 		material.textures[size_t(p_slot)] = texture_ref(p_context, p_slot, p_texture, p_channel, p_uv2);
 	};
@@ -96,6 +101,7 @@ void BaseMaterial3D::free_server_objects(RenderingServer &p_server) {
 
 void Material::bind(ClassBuilder<Material> &r_class) {
 	r_class.doc("How something is coloured.");
+	r_class.property("render_priority", &Material::set_render_priority, &Material::get_render_priority).range(-128, 127, 1).doc("Blended surfaces of higher priority are drawn later.");
 }
 
 void StandardMaterial3D::bind(ClassBuilder<StandardMaterial3D> &r_class) {

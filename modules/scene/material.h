@@ -15,10 +15,16 @@ public:
 	~Material() override { leave_context(); }
 	// Invalid: not a material for surfaces.
 	virtual MaterialRid get_rid(SceneContext &) { return {}; }
+	// -128 to 127; blended surfaces of higher priority are drawn later.
+	void set_render_priority(int p_priority);
+	int get_render_priority() const { return render_priority; }
 
 protected:
 	void send(SceneContext &) override {}
 	void free_server_objects(RenderingServer &) override {}
+
+private:
+	int render_priority = 0;
 };
 
 enum class MaterialShading : uint8_t {
@@ -83,7 +89,6 @@ public:
 		Vector3 uv1_scale{ 1.0f };
 		Vector3 uv2_offset{ 0.0f };
 		Vector3 uv2_scale{ 1.0f };
-		int render_priority = 0; // -128 to 127; higher blends later
 
 		// What glTF has beyond Godot's properties; not in the registry.
 		Vector3 specular_tint{ 1.0f }; // KHR_materials_specular's colour, linear

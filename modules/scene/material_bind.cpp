@@ -27,7 +27,6 @@ void BaseMaterial3D::bind(ClassBuilder<BaseMaterial3D> &r_class) {
 	r_class.field("shading_mode", S, &State::shading_mode).enum_of("ShadingMode").doc("Whether light acts; per-vertex shading is done per pixel.");
 	r_class.field("specular_mode", S, &State::specular_mode).enum_of("SpecularMode").doc("The specular lobe; toon is drawn as Schlick-GGX.");
 	r_class.field("vertex_color_use_as_albedo", S, &State::vertex_color_use_as_albedo).doc("Multiplies albedo by the vertex colour.");
-	r_class.field("render_priority", S, &State::render_priority).range(-128, 127, 1).doc("Blended surfaces of higher priority are drawn later.");
 	r_class.field("albedo_color", S, &State::albedo_color).doc("The base colour; its alpha acts by transparency.");
 	r_class.field("albedo_texture", S, &State::albedo_texture).doc("Multiplies albedo_color.");
 	r_class.field("metallic", S, &State::metallic).range(0, 1, 0.01).doc("0 is a dielectric, 1 is a metal.");

@@ -40,11 +40,13 @@ public:
 	Node *add_child(std::unique_ptr<Node> p_child);
 	template <typename T>
 	T *add(std::unique_ptr<T> p_child) { return static_cast<T *>(add_child(std::move(p_child))); }
-	// Makes a T as the last child.
+	// Makes a T as the last child. Without a name it is called as its class.
 	template <typename T>
 	T *create_child(const std::string &p_name) {
 		std::unique_ptr<T> child = std::make_unique<T>();
-		child->set_name(p_name);
+		if (!p_name.empty()) {
+			child->set_name(p_name);
+		}
 		return add(std::move(child));
 	}
 	// Null: not a child.
