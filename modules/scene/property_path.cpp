@@ -119,18 +119,4 @@ Result<Variant> get_property_by_path(Node &p_root, const NodePath &p_path) {
 	return value;
 }
 
-Status set_property_by_text(Node &p_root, const std::string &p_assignment, const ValueParser &p_parser) {
-	const size_t equals = p_assignment.find('=');
-	if (equals == std::string::npos) {
-		return make_error("'{}': expected NODE:property=value", p_assignment);
-	}
-	const NodePath path(p_assignment.substr(0, equals));
-	Result<Variant> present = get_property_by_path(p_root, path);
-	if (!present) {
-		return present.error();
-	}
-	Result<Variant> value = p_parser(p_assignment.substr(equals + 1), present.value().get_type());
-	return value ? set_property_by_path(p_root, path, value.value()) : Status(make_error("'{}': {}", p_assignment, value.error().message));
-}
-
 } // namespace lucent::scene

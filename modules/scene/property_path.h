@@ -5,17 +5,10 @@
 
 #include "modules/scene/node.h"
 
-#include <functional>
-
 namespace lucent::scene {
-
-// Turns the text after "=" into a value of about p_type: Godot's text syntax.
-using ValueParser = std::function<Result<Variant>(const std::string &p_text, Variant::Type p_type)>;
 
 // The names are looked up from p_root; if p_root has no such child but is itself called as the first one, from its parent.
 Status set_property_by_path(Node &p_root, const NodePath &p_path, const Variant &p_value);
 Result<Variant> get_property_by_path(Node &p_root, const NodePath &p_path);
-// "PATH=value". The parser is told the type that the property has now.
-Status set_property_by_text(Node &p_root, const std::string &p_assignment, const ValueParser &p_parser);
 
 } // namespace lucent::scene

@@ -21,6 +21,10 @@ SceneTree::SceneTree(RenderingServer *p_server) {
 }
 
 SceneTree::~SceneTree() {
+	// While the root still answers: those who leave may ask for paths and groups.
+	while (root->get_child_count() > 0) {
+		root->remove_child(root->get_child(root->get_child_count() - 1));
+	}
 	root.reset();
 	if (context) {
 		context->server().free(scenario);

@@ -114,11 +114,4 @@ TEST_CASE("properties by path") {
 	CHECK(set("Box:transform:origin:y", 3).empty());
 	CHECK(box->get_position() == Vector3(0, 3, 0));
 	CHECK(scene::get_property_by_path(*root, NodePath("Box:position:y")).value() == Variant(3.0));
-	const auto parser = [](const std::string &p_text, Variant::Type p_type) -> Result<Variant> {
-		return p_type == Variant::Type::FLOAT ? Result<Variant>(Variant(std::stod(p_text))) : Result<Variant>(make_error("not a number"));
-	};
-	CHECK(scene::set_property_by_text(*root, "Box:position:x=2.5", parser).ok());
-	CHECK(box->get_position().x == 2.5f);
-	CHECK_FALSE(scene::set_property_by_text(*root, "Box:position:x", parser).ok());
-	CHECK_FALSE(scene::set_property_by_text(*root, "Box:position=1", parser).ok());
 }
