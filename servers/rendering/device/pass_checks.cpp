@@ -72,7 +72,8 @@ std::string check_set0(std::span<const PassBinding> p_declared, std::span<const 
 				return fmt::format("binding {}, '{}', {}, is not declared", reflected.binding, reflected.name, kind_name(reflected.kind));
 			}
 			if (!matches(declared->kind, reflected)) {
-				return fmt::format("binding {}, '{}', is {}{}, but declared as {}", reflected.binding, reflected.name, reflected.writable ? "writable " : "", kind_name(reflected.kind), declared_name(declared->kind));
+				const bool storage = reflected.kind == DescriptorKind::STORAGE_BUFFER || reflected.kind == DescriptorKind::STORAGE_TEXTURE;
+				return fmt::format("binding {}, '{}', is {}{}, but declared as {}", reflected.binding, reflected.name, kind_name(reflected.kind), storage ? (reflected.writable ? " that is writable" : " that is readonly") : "", declared_name(declared->kind));
 			}
 			const ReflectedBinding *first = find_reflected(reflected.binding, p_shaders);
 			if (first->kind != reflected.kind || first->shape != reflected.shape) {

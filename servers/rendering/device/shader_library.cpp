@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -89,7 +90,12 @@ bool same_interface(const ShaderReflection &p_a, const ShaderReflection &p_b) {
 } // namespace
 
 ShaderLibrary::ShaderLibrary(RenderingDeviceDriver &p_driver) :
-		driver(p_driver), shaders(size_t(Shader::COUNT)), last_look(fs::file_time_type::clock::now()) {
+		driver(p_driver), shaders(size_t(Shader::COUNT)) {
+	// A second of slack: files' clocks tick coarsely, and reloading the same code does no harm.
+	const fs::file_time_type start = fs::file_time_type::clock::now() - std::chrono::seconds(1);
+	for (LoadedShader &shader : shaders) {
+		shader.source_time = start;
+	}
 }
 
 ShaderLibrary::~ShaderLibrary() {
@@ -135,20 +141,20 @@ bool ShaderLibrary::replace(LoadedShader &r_shader, std::span<const uint32_t> p_
 }
 
 std::vector<Shader> ShaderLibrary::reload(const std::string &p_source_root, std::vector<DriverShader> &r_replaced) {
-	const fs::file_time_type now = fs::file_time_type::clock::now();
 	std::vector<Shader> changed;
 	for (size_t i = 0; i < shaders.size(); i++) {
 		std::vector<std::string> seen;
-		if (newest_change(p_source_root, SHADER_DATA[i].source_path, seen) <= last_look) {
+		const fs::file_time_type time = newest_change(p_source_root, SHADER_DATA[i].source_path, seen);
+		if (time <= shaders[i].source_time) {
 			continue;
 		}
+		shaders[i].source_time = time;
 		get(Shader(i));
 		const std::vector<uint32_t> spirv = compile(p_source_root, SHADER_DATA[i].source_path);
 		if (!spirv.empty() && replace(shaders[i], spirv, r_replaced)) {
 			changed.push_back(Shader(i));
 		}
 	}
-	last_look = now;
 	return changed;
 }
 

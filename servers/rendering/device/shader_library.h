@@ -12,6 +12,7 @@ namespace lucent {
 struct LoadedShader {
 	std::string name;
 	DriverShader module; // none: not used yet
+	std::filesystem::file_time_type source_time; // of its code, includes among it
 	ShaderReflection reflection;
 };
 
@@ -23,7 +24,7 @@ public:
 	ShaderLibrary &operator=(const ShaderLibrary &) = delete;
 
 	const LoadedShader &get(Shader p_shader);
-	// Recompiles what changed below p_source_root since the library was made or last asked. A shader that does not compile, or
+	// Recompiles what changed below p_source_root since the library was made or this last asked. A shader that does not compile, or
 	// whose bindings changed, is logged and keeps its old code. r_replaced: modules for the caller to destroy.
 	std::vector<Shader> reload(const std::string &p_source_root, std::vector<DriverShader> &r_replaced);
 
@@ -31,7 +32,6 @@ private:
 	bool replace(LoadedShader &r_shader, std::span<const uint32_t> p_spirv, std::vector<DriverShader> &r_replaced);
 	RenderingDeviceDriver &driver;
 	std::vector<LoadedShader> shaders;
-	std::filesystem::file_time_type last_look;
 };
 
 } // namespace lucent

@@ -164,30 +164,34 @@ void reflect_work_group(const Parsed &p_module, ShaderReflection &r_shader) {
 	}
 }
 
-void collect_structs(const Parsed &p_module, spvc_type_id p_type, std::map<std::string, StructLayout> &r_structs) {
+using StructMap = std::multimap<std::string, StructLayout>;
+
+void collect_structs(const Parsed &p_module, spvc_type_id p_type, uint64_t p_stride, StructMap &r_structs) {
 	const spvc_type type = spvc_compiler_get_type_handle(p_module.compiler, p_type);
 	if (spvc_type_get_basetype(type) != SPVC_BASETYPE_STRUCT) {
 		return;
 	}
-	const std::string name = spvc_compiler_get_name(p_module.compiler, spvc_type_get_base_type_id(type));
-	const unsigned member_count = spvc_type_get_num_member_types(type);
-	if (r_structs.contains(name)) {
-		return;
-	}
+	const spvc_type_id base = spvc_type_get_base_type_id(type);
+	const spvc_type base_type = spvc_compiler_get_type_handle(p_module.compiler, base); // without array dimensions
+	const unsigned member_count = spvc_type_get_num_member_types(base_type);
 	StructLayout layout;
+	layout.array_stride_bytes = p_stride;
 	for (unsigned i = 0; i < member_count; i++) {
 		unsigned offset = 0;
-		if (spvc_compiler_type_struct_member_offset(p_module.compiler, type, i, &offset) == SPVC_SUCCESS) {
-			layout.member_offsets[spvc_compiler_get_member_name(p_module.compiler, spvc_type_get_base_type_id(type), i)] = offset;
+		if (spvc_compiler_type_struct_member_offset(p_module.compiler, base_type, i, &offset) == SPVC_SUCCESS) {
+			layout.member_offsets[spvc_compiler_get_member_name(p_module.compiler, base, i)] = offset;
 		}
+		const spvc_type_id member = spvc_type_get_member_type(base_type, i);
+		unsigned stride = 0;
+		if (spvc_type_get_num_array_dimensions(spvc_compiler_get_type_handle(p_module.compiler, member)) != 0) {
+			spvc_compiler_type_struct_member_array_stride(p_module.compiler, base_type, i, &stride);
+		}
+		collect_structs(p_module, member, stride, r_structs);
 	}
 	size_t size = 0;
-	spvc_compiler_get_declared_struct_size(p_module.compiler, type, &size);
+	spvc_compiler_get_declared_struct_size(p_module.compiler, base_type, &size);
 	layout.size_bytes = size;
-	r_structs[name] = layout;
-	for (unsigned i = 0; i < member_count; i++) {
-		collect_structs(p_module, spvc_type_get_member_type(type, i), r_structs);
-	}
+	r_structs.emplace(spvc_compiler_get_name(p_module.compiler, base), layout);
 }
 
 } // namespace
@@ -223,21 +227,24 @@ Result<ShaderReflection> reflect_shader(std::span<const uint32_t> p_spirv) {
 	const spvc_specialization_constant *constants = nullptr;
 	size_t constant_count = 0;
 	spvc_compiler_get_specialization_constants(module.compiler, &constants, &constant_count);
+	std::vector<uint32_t> &ids = shader.specialization_ids;
 	for (size_t i = 0; i < constant_count; i++) {
-		shader.specialization_ids.push_back(constants[i].constant_id);
+		ids.push_back(constants[i].constant_id);
 	}
+	std::sort(ids.begin(), ids.end()); // glslang repeats those of the group's size
+	ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 	return shader;
 }
 
-Result<std::map<std::string, StructLayout>> reflect_structs(std::span<const uint32_t> p_spirv) {
+Result<std::multimap<std::string, StructLayout>> reflect_structs(std::span<const uint32_t> p_spirv) {
 	Parsed module;
 	if (!module.parse(p_spirv)) {
 		return module.error();
 	}
-	std::map<std::string, StructLayout> structs;
+	StructMap structs;
 	for (spvc_resource_type type : { SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_STORAGE_BUFFER, SPVC_RESOURCE_TYPE_PUSH_CONSTANT }) {
 		for (const spvc_reflected_resource &resource : module.list(type)) {
-			collect_structs(module, resource.base_type_id, structs);
+			collect_structs(module, resource.base_type_id, 0, structs);
 		}
 	}
 	return structs;

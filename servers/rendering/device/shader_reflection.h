@@ -44,10 +44,13 @@ Result<ShaderReflection> reflect_shader(std::span<const uint32_t> p_spirv);
 
 struct StructLayout {
 	uint64_t size_bytes = 0; // end of the last member
+	uint64_t array_stride_bytes = 0; // where it is a member's element; 0: nowhere
 	std::map<std::string, uint64_t> member_offsets;
+	bool operator==(const StructLayout &) const = default;
 };
 
-// Every struct with offsets that the module's buffers and push constants reach, by its GLSL name.
-Result<std::map<std::string, StructLayout>> reflect_structs(std::span<const uint32_t> p_spirv);
+// Every struct with offsets that the module's buffers and push constants reach, by its GLSL name; several where the
+// module lays it out in several ways.
+Result<std::multimap<std::string, StructLayout>> reflect_structs(std::span<const uint32_t> p_spirv);
 
 } // namespace lucent
