@@ -10,7 +10,7 @@ usage: ./lucent test [--ci] [--device NAME] [--filter TEXT]
   --filter TEXT  only cases with TEXT in their names, and none of the other checks
   --ci           also: unit tests under the address and undefined-behaviour sanitizers (built by clang), GPU tests on SwiftShader
 
-Steps: checks of the tree, unit tests, GPU tests under validation, tests of the command line. The last line is `N passed, N failed`.
+Steps: checks of the tree, unit tests, GPU tests under validation (those of the command line among them). The last line is `N passed, N failed`.
 TEXT
 }
 
@@ -104,7 +104,7 @@ run_ci_steps() {
 }
 
 run_tests() {
-	local ci=0 device="" icd="" script start=$SECONDS
+	local ci=0 device="" icd="" start=$SECONDS
 	filter=()
 	while (($#)); do
 		case $1 in
@@ -140,9 +140,6 @@ run_tests() {
 	suite "unit tests" "$root/bin/lucent_tests" --root "$root" "${filter[@]}"
 	gpu_suite "GPU tests" "$root/bin/lucent_tests" "$device" "$icd"
 	if ((${#filter[@]} == 0)); then
-		for script in "$root"/tests/cli/*.py; do
-			[[ ! -f $script ]] || suite "${script#"$root/"}" env ${icd:+VK_DRIVER_FILES="$icd"} python3 -B "$script"
-		done
 		((ci == 0)) || run_ci_steps
 	fi
 
