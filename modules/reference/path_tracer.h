@@ -59,7 +59,7 @@ struct PathTracerResult {
 	std::vector<float> depth; // m along the camera's axis; 0: no surface
 };
 
-// Throughput on one machine in one run.
+// Throughput on one machine in one run, by CPU time times the number of threads: what an idle machine would reach.
 struct PathTracerThroughput {
 	double path_tracer_mrays_s = 0; // millions of rays a second, with shading and everything
 	double bare_mrays_s = 0; // rtcIntersect1 alone, on rays recorded from the same paths
