@@ -10,6 +10,7 @@ enum ExitCode : int {
 	EXIT_USAGE = 2, // an argument is wrong
 	EXIT_BAD_INPUT = 3, // a scene or resource can't be read
 	EXIT_OUTPUT = 4, // a result can't be written
+	EXIT_WORSE = 5, // a compared figure is beyond its --threshold
 };
 
 inline constexpr const char *EXIT_CODES_HELP = "Exit codes:\n"
@@ -17,6 +18,7 @@ inline constexpr const char *EXIT_CODES_HELP = "Exit codes:\n"
 											   "  1  no usable Vulkan device, or rendering failed\n"
 											   "  2  an argument is wrong\n"
 											   "  3  a scene or resource can't be read\n"
-											   "  4  a result can't be written\n";
+											   "  4  a result can't be written\n"
+											   "  5  lucent compare: a figure is beyond its --threshold\n";
 
 } // namespace lucent

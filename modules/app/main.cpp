@@ -15,8 +15,10 @@ static const char HELP[] = "Lucent: real-time global illumination from signed di
 						   "       lucent COMMAND --help\n"
 						   "\n"
 						   "Commands:\n"
-						   "  render   draw a scene (.tscn, .glb, .gltf) into pictures (.png, .exr), without a window\n"
-						   "  info     list Vulkan devices and what they can do\n"
+						   "  render     draw a scene (.tscn, .glb, .gltf) into pictures (.png, .exr), without a window\n"
+						   "  reference  path-trace a scene: the truth for what render draws (.exr)\n"
+						   "  compare    say how far a picture is from the truth\n"
+						   "  info       list Vulkan devices and what they can do\n"
 						   "\n"
 						   "Options:\n"
 						   "  --version  print the version\n"
@@ -36,6 +38,12 @@ struct Command {
 static const Command COMMANDS[] = {
 #ifdef MODULE_SCENE_ENABLED
 	{ "render", render_command },
+#endif
+#if defined(MODULE_REFERENCE_ENABLED) && defined(MODULE_SCENE_ENABLED) && defined(MODULE_IMAGE_ENABLED)
+	{ "reference", reference_command },
+#endif
+#if defined(MODULE_REFERENCE_ENABLED) && defined(MODULE_IMAGE_ENABLED)
+	{ "compare", compare_command },
 #endif
 	{ "info", info_command },
 };

@@ -40,7 +40,7 @@ static std::string footer() {
 			std::string(EXIT_CODES_HELP);
 }
 
-static Result<Ok> parse_size(const std::string &p_text, RenderOptions &r_options) {
+Status parse_size(const std::string &p_text, RenderOptions &r_options) {
 	const size_t cross = p_text.find('x');
 	const char *end = p_text.data() + p_text.size();
 	if (cross != std::string::npos) {

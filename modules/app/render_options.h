@@ -34,6 +34,9 @@ inline constexpr uint32_t MAX_IMAGE_SIZE = 16384; // an axis
 
 inline constexpr const char *AOV_NAMES[] = { "direct", "indirect_diffuse", "indirect_specular", "emission", "albedo", "normal", "depth", "motion" };
 
+// "1280x720" into width and height.
+Status parse_size(const std::string &p_text, RenderOptions &r_options);
+
 struct ParsedOptions {
 	RenderOptions options;
 	bool exit = false; // --help was printed
