@@ -29,6 +29,28 @@ bool take_from(MemoryBlock &r_block, VkDeviceSize p_size, VkDeviceSize p_alignme
 	return false;
 }
 
+bool is_empty(const MemoryBlock &p_block) {
+	return !p_block.dedicated && p_block.free_ranges.size() == 1 && p_block.free_ranges.begin()->second == p_block.size;
+}
+
+// Joins the range with its free neighbours. True: the whole block is free now.
+bool give_back(MemoryBlock &r_block, const MemoryAllocation &p_allocation) {
+	auto range = r_block.free_ranges.emplace(p_allocation.offset, p_allocation.size).first;
+	const auto next = std::next(range);
+	if (next != r_block.free_ranges.end() && range->first + range->second == next->first) {
+		range->second += next->second;
+		r_block.free_ranges.erase(next);
+	}
+	if (range != r_block.free_ranges.begin()) {
+		const auto previous = std::prev(range);
+		if (previous->first + previous->second == range->first) {
+			previous->second += range->second;
+			r_block.free_ranges.erase(range);
+		}
+	}
+	return is_empty(r_block);
+}
+
 } // namespace
 
 VulkanMemory::~VulkanMemory() {
@@ -147,30 +169,21 @@ MemoryBlock *VulkanMemory::make_block(VkDeviceSize p_size, uint32_t p_type, bool
 	return &blocks.emplace_back(std::move(block));
 }
 
+// One empty block of each sort stays: making a block takes milliseconds on some drivers.
+bool VulkanMemory::has_other_empty(const MemoryBlock &p_block) const {
+	return std::any_of(blocks.begin(), blocks.end(), [&](const MemoryBlock &p_other) {
+		const bool same_sort = p_other.type == p_block.type && p_other.for_images == p_block.for_images && (p_other.mapped != nullptr) == (p_block.mapped != nullptr);
+		return &p_other != &p_block && same_sort && is_empty(p_other);
+	});
+}
+
 void VulkanMemory::free(MemoryAllocation &r_allocation) {
 	MemoryBlock *block = r_allocation.block;
 	if (block == nullptr) {
 		return;
 	}
-	bool empty = block->dedicated;
-	if (!block->dedicated) {
-		auto range = block->free_ranges.emplace(r_allocation.offset, r_allocation.size).first;
-		const auto next = std::next(range);
-		if (next != block->free_ranges.end() && range->first + range->second == next->first) {
-			range->second += next->second;
-			block->free_ranges.erase(next);
-		}
-		if (range != block->free_ranges.begin()) {
-			const auto previous = std::prev(range);
-			if (previous->first + previous->second == range->first) {
-				previous->second += range->second;
-				block->free_ranges.erase(range);
-				range = previous;
-			}
-		}
-		empty = range->first == 0 && range->second == block->size;
-	}
-	if (empty) {
+	const bool release = block->dedicated || (give_back(*block, r_allocation) && has_other_empty(*block));
+	if (release) {
 		vkFreeMemory(context.device, block->memory, nullptr);
 		blocks.remove_if([&](const MemoryBlock &p_block) { return &p_block == block; });
 	}

@@ -46,6 +46,7 @@ private:
 	MemoryAllocation allocate_of_type(const VkMemoryRequirements &p_needs, uint32_t p_type, bool p_map, bool p_for_images, const VkMemoryDedicatedAllocateInfo *p_dedicated);
 	std::vector<uint32_t> types_for(uint32_t p_allowed, MemoryKind p_kind) const; // best first
 	MemoryBlock *make_block(VkDeviceSize p_size, uint32_t p_type, bool p_map, bool p_for_images, const VkMemoryDedicatedAllocateInfo *p_dedicated);
+	bool has_other_empty(const MemoryBlock &p_block) const;
 	const VulkanContext &context;
 	std::list<MemoryBlock> blocks;
 };

@@ -91,6 +91,20 @@ TEST_CASE_FIXTURE(GpuFixture, "device: passes that hand a buffer on see one anot
 	}
 }
 
+TEST_CASE_FIXTURE(GpuFixture, "device: a frame of many passes outgrows the first descriptor pool") {
+	constexpr uint32_t PASSES = 700;
+	const OwnedBuffer buffers[] = { buffer("even", 256), buffer("odd", 256) };
+	for (int repeat = 0; repeat < 3; repeat++) {
+		frame([&](PassRecorder &r_recorder) {
+			for (uint32_t i = 0; i < PASSES; i++) {
+				r_recorder.compute("add", Shader::TEST_ADD).read(TEST_SOURCE, buffers[i % 2]).write(TEST_TARGET, buffers[1 - i % 2]).constants(shader::TestConstants{ .count = 64, .value = 1 }).dispatch_threads(64);
+			}
+		});
+	}
+	CHECK(device().read_back_buffer<uint32_t>(buffers[0]) == std::vector<uint32_t>(64, 3 * PASSES));
+	CHECK((!device().info().timestamps || device().timings().size() == PASSES));
+}
+
 TEST_CASE_FIXTURE(GpuFixture, "device: copies, clears and updates are ordered with the passes around them") {
 	constexpr uint32_t COUNT = 1000;
 	const OwnedBuffer first = buffer("first", COUNT * 4);

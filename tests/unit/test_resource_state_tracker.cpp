@@ -60,7 +60,7 @@ struct Textures {
 	explicit Textures(uint32_t p_mips = 1, uint32_t p_layers = 1) :
 			state(p_mips, p_layers) {}
 	std::vector<Barrier> use(const TextureRange &p_range, uint32_t p_access, TextureLayout p_layout, bool p_discard = false) {
-		tracker.clear();
+		tracker.next_command();
 		tracker.use_texture(TEXTURE, state, p_range, p_access, p_layout, p_discard);
 		return tracker.barriers();
 	}
@@ -96,7 +96,7 @@ TEST_CASE("state tracker: mips and layers apart") {
 	CHECK(t.state.at(1, 1).readers == ACCESS_COMPUTE_SAMPLE);
 	CHECK(t.state.at(1, 0).readers == 0);
 	// One command reads mip 0 and writes mip 1 of layer 0.
-	t.tracker.clear();
+	t.tracker.next_command();
 	t.tracker.use_texture(TEXTURE, t.state, { 0, 1, 0, 1 }, ACCESS_COMPUTE_SAMPLE, general);
 	t.tracker.use_texture(TEXTURE, t.state, { 1, 1, 0, 1 }, ACCESS_COMPUTE_WRITE, general);
 	CHECK(t.tracker.barriers() == std::vector{ texture_barrier({ 0, 1, 0, 1 }, ACCESS_COMPUTE_WRITE, ACCESS_COMPUTE_SAMPLE, general, general), texture_barrier({ 1, 1, 0, 1 }, ACCESS_COMPUTE_WRITE, ACCESS_COMPUTE_WRITE, general, general) });
@@ -104,6 +104,20 @@ TEST_CASE("state tracker: mips and layers apart") {
 	CHECK(t.use(whole, ACCESS_COMPUTE_SAMPLE, general) == std::vector{ texture_barrier({ 1, 2, 0, 1 }, ACCESS_COMPUTE_WRITE, ACCESS_COMPUTE_SAMPLE, general, general), texture_barrier({ 0, 1, 1, 1 }, ACCESS_COMPUTE_WRITE, ACCESS_COMPUTE_SAMPLE, general, general), texture_barrier({ 2, 1, 1, 1 }, ACCESS_COMPUTE_WRITE, ACCESS_COMPUTE_SAMPLE, general, general) });
 	// Now all agree again: one barrier.
 	CHECK(t.use(whole, ACCESS_COMPUTE_WRITE, general) == std::vector{ texture_barrier(whole, ACCESS_COMPUTE_WRITE | ACCESS_COMPUTE_SAMPLE, ACCESS_COMPUTE_WRITE, general, general) });
+}
+
+TEST_CASE("state tracker: one command can't have a texture in two layouts") {
+	Textures t(2, 1);
+	const TextureRange whole = t.state.whole();
+	t.use(whole, ACCESS_COMPUTE_SAMPLE, TextureLayout::SHADER_READ);
+	t.tracker.next_command();
+	CHECK(t.tracker.use_texture(TEXTURE, t.state, whole, ACCESS_GRAPHICS_SAMPLE, TextureLayout::SHADER_READ));
+	CHECK(t.tracker.use_texture(TEXTURE, t.state, whole, ACCESS_COMPUTE_SAMPLE, TextureLayout::SHADER_READ));
+	CHECK_FALSE(t.tracker.use_texture(TEXTURE, t.state, { 1, 1, 0, 1 }, ACCESS_COLOR_WRITE, TextureLayout::COLOR_TARGET));
+	t.tracker.next_command();
+	CHECK(t.tracker.use_texture(TEXTURE, t.state, { 0, 1, 0, 1 }, ACCESS_COLOR_WRITE, TextureLayout::COLOR_TARGET));
+	CHECK(t.tracker.use_texture(TEXTURE, t.state, { 1, 1, 0, 1 }, ACCESS_GRAPHICS_SAMPLE, TextureLayout::SHADER_READ));
+	CHECK_FALSE(t.tracker.use_texture(TEXTURE, t.state, whole, ACCESS_GRAPHICS_SAMPLE, TextureLayout::SHADER_READ));
 }
 
 } // namespace

@@ -129,14 +129,15 @@ void RenderingDevice::Impl::use(TextureResource &r_texture, const TextureRange &
 	if (!r_texture.initialized && !p_overwrites_range) {
 		fill_new(r_texture);
 	}
-	tracker.use_texture(r_texture.id, r_texture.state, p_range, p_access, p_layout, p_overwrites_range);
+	const bool agreed = tracker.use_texture(r_texture.id, r_texture.state, p_range, p_access, p_layout, p_overwrites_range);
+	INVARIANT(agreed, "one pass uses '{}' in two ways that exclude each other, such as target and texture", r_texture.desc.name);
 }
 
 void RenderingDevice::Impl::flush_barriers() {
 	if (!tracker.barriers().empty()) {
 		driver->cmd_barriers(tracker.barriers());
-		tracker.clear();
 	}
+	tracker.next_command();
 }
 
 void RenderingDevice::Impl::fill_new(BufferResource &r_buffer) {
@@ -153,7 +154,7 @@ void RenderingDevice::Impl::fill_new(TextureResource &r_texture) {
 		const bool is_float = kind == FormatKind::FLOAT;
 		value = is_float ? std::numeric_limits<float>::quiet_NaN() : (kind == FormatKind::UINT ? std::numeric_limits<float>::max() : 1.0f);
 	}
-	ResourceStateTracker own; // the pass's own barriers come after the fill
+	ResourceStateTracker own(0); // the pass's own barriers come after the fill
 	std::vector<TextureRange> ranges;
 	for (uint32_t layer = 0; layer < r_texture.desc.layer_count(); layer++) {
 		for (uint32_t mip = 0; mip < r_texture.desc.mips; mip++) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "servers/rendering/device/resource_state_tracker.h"
 
-#include "servers/core/error.h"
+#include <algorithm>
 
 namespace lucent {
 
@@ -38,17 +38,23 @@ void ResourceStateTracker::use_buffer(DriverBuffer p_buffer, AccessState &r_stat
 	}
 }
 
-void ResourceStateTracker::use_texture(DriverTexture p_texture, TextureState &r_state, const TextureRange &p_range, uint32_t p_access, TextureLayout p_layout, bool p_discard) {
+bool ResourceStateTracker::use_texture(DriverTexture p_texture, TextureState &r_state, const TextureRange &p_range, uint32_t p_access, TextureLayout p_layout, bool p_discard) {
 	Barrier barrier;
 	barrier.texture = p_texture;
 	barrier.range = p_range;
 	std::vector<AccessState> &states = r_state.states;
 	const bool whole = p_range == r_state.whole();
+	bool agreed = true;
+	const auto enter = [&](AccessState &r_subresource) {
+		agreed = agreed && (command == 0 || r_subresource.command != command || r_subresource.layout == p_layout);
+		r_subresource.command = command;
+	};
 	if (whole && states.size() == 1) {
+		enter(states[0]);
 		if (advance(states[0], p_access, p_layout, p_discard, barrier)) {
 			pending.push_back(barrier);
 		}
-		return;
+		return agreed;
 	}
 	if (states.size() == 1) {
 		states.resize(size_t(r_state.mips) * r_state.layers, states[0]);
@@ -56,7 +62,9 @@ void ResourceStateTracker::use_texture(DriverTexture p_texture, TextureState &r_
 	for (uint32_t layer = p_range.first_layer; layer < p_range.first_layer + p_range.layer_count; layer++) {
 		for (uint32_t mip = p_range.first_mip; mip < p_range.first_mip + p_range.mip_count; mip++) {
 			barrier.range = { mip, 1, layer, 1 };
-			if (!advance(states[layer * r_state.mips + mip], p_access, p_layout, p_discard, barrier)) {
+			AccessState &subresource = states[layer * r_state.mips + mip];
+			enter(subresource);
+			if (!advance(subresource, p_access, p_layout, p_discard, barrier)) {
 				continue;
 			}
 			// Neighbouring mips of a layer share a barrier.
@@ -72,13 +80,10 @@ void ResourceStateTracker::use_texture(DriverTexture p_texture, TextureState &r_
 		}
 	}
 	if (whole) {
-		for (const AccessState &state : states) {
-			if (state != states[0]) {
-				return;
-			}
-		}
-		states.resize(1);
+		const bool all_agree = std::all_of(states.begin(), states.end(), [&](const AccessState &p_state) { return p_state.agrees(states[0]); });
+		states.resize(all_agree ? 1 : states.size());
 	}
+	return agreed;
 }
 
 } // namespace lucent

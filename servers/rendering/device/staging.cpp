@@ -8,6 +8,7 @@ namespace lucent {
 namespace {
 
 constexpr uint64_t BLOCK_BYTES = 8u << 20;
+constexpr uint64_t MAX_KEPT_BYTES = 64u << 20; // per slot
 constexpr uint64_t ALIGNMENT_BYTES = 16; // the largest texel
 
 } // namespace
@@ -42,17 +43,17 @@ StagingRange StagingMemory::allocate(uint32_t p_slot, uint64_t p_size_bytes) {
 }
 
 void StagingMemory::recycle(uint32_t p_slot) {
-	std::vector<Block> &slot = blocks[p_slot];
-	// One ordinary block stays for the uploads of the frames to come.
-	bool kept = false;
-	std::erase_if(slot, [&](Block &r_block) {
-		if (!kept && r_block.size == BLOCK_BYTES) {
-			kept = true;
+	// What this turn used is kept for the next, within limits.
+	uint64_t kept = 0;
+	std::erase_if(blocks[p_slot], [&](Block &r_block) {
+		const bool keep = kept == 0 || (r_block.used != 0 && kept + r_block.size <= MAX_KEPT_BYTES);
+		if (keep) {
+			kept += r_block.size;
 			r_block.used = 0;
-			return false;
+		} else {
+			driver.destroy(r_block.buffer);
 		}
-		driver.destroy(r_block.buffer);
-		return true;
+		return !keep;
 	});
 }
 
