@@ -148,7 +148,7 @@ TEST_SUITE("gpu") {
 		CHECK(surplus == 0);
 	}
 
-	TEST_CASE("the distance field is the distance to the nearest stored cell, rounded down to an eighth") {
+	TEST_CASE("the distance field is the distance to the nearest stored cell, rounded down to a sixteenth, up to 15 cells") {
 		GpuFixture fixture;
 		RenderingDevice &device = fixture.device();
 		GiTestScene scene(device);
@@ -176,7 +176,7 @@ TEST_SUITE("gpu") {
 				const Vector3i d = other - p_cell;
 				best = std::min(best, d.x * d.x + d.y * d.y + d.z * d.z);
 			}
-			const uint32_t expected = std::min(255u, uint32_t(std::floor(std::sqrt(float(best)) * 8.0f)));
+			const uint32_t expected = std::min(255u, uint32_t(std::floor(std::sqrt(float(best)) * 16.0f)));
 			const glm::uvec3 s = read.storage(p_cell);
 			wrong += read.sdf[brick_index(s) * 64 + bit_index(s)] != expected;
 		});

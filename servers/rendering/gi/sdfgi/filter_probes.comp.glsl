@@ -4,22 +4,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "servers/rendering/gi/sdfgi/probes_inc.glsl"
+#include "servers/rendering/gi/sdfgi/probe_list_inc.glsl"
 
 #define FILTER_PROBES_RADIANCE 20
 #define FILTER_PROBES_IRRADIANCE 21
-#define FILTER_PROBES_PLACES 22
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = FILTER_PROBES_RADIANCE, rgba16f) uniform image2D radiance_atlas;
 layout(set = 0, binding = FILTER_PROBES_IRRADIANCE, rgba16f) uniform writeonly image2D irradiance_atlas;
-layout(set = 0, binding = FILTER_PROBES_PLACES, scalar) readonly buffer PlacesBlock {
-	ProbePlace places[];
-};
-layout(push_constant, scalar) uniform FilterPush {
-	TraceProbesConstants constants;
-};
-
 shared uvec2 group_radiance[64]; // half x 4
 
 // Direction to the centre of a radiance texel; w: its solid angle up to a constant. A face of the octahedron, seen from its
@@ -35,15 +27,11 @@ vec4 texel_direction(uint texel) {
 }
 
 void main() {
-	uint place = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-	if (place >= probes_in_cascade()) {
+	uint place = place_of_slot(gl_WorkGroupID.x);
+	if (place == NO_PLACE) {
 		return;
 	}
 	uint index = constants.cascade * probes_in_cascade() + place;
-	ivec3 probe = probe_at_place(constants.cascade, place);
-	if (cell_in_hole(constants.cascade, probe * int(probe_params.spacing_cells)) || !probe_is_due(places[index], index)) {
-		return;
-	}
 	ivec2 radiance_tile = probe_tile(index, PROBE_RADIANCE_BORDERED_TEXELS);
 	ivec2 thread = ivec2(gl_LocalInvocationID.xy);
 	uint lane = gl_LocalInvocationIndex;

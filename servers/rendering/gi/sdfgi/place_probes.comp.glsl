@@ -11,6 +11,9 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = PLACE_PROBES_OUT, scalar) writeonly buffer PlacesBlock {
 	ProbePlace places[];
 };
+layout(set = 0, binding = PROBE_LIST, scalar) buffer ProbeListBlock {
+	uint probe_list[]; // the header is zero before
+};
 layout(push_constant, scalar) uniform PlacePush {
 	TraceProbesConstants constants;
 };
@@ -64,4 +67,16 @@ void main() {
 	uint flags = (best_free ? PROBE_FREE : 0u) | (reach_cells < 1.7321 * spacing + 2.0 ? PROBE_NEAR : 0u);
 	ivec3 packed_offset = ivec3(round(clamp(best_offset * 16.0, -127.0, 127.0))) & 255;
 	places[constants.cascade * probes_in_cascade() + place].packed_offset = uint(packed_offset.x) | (uint(packed_offset.y) << 8) | (uint(packed_offset.z) << 16) | (flags << 24);
+	if ((flags & PROBE_NEAR) != 0u && !cell_in_hole(constants.cascade, probe * int(probe_params.spacing_cells))) {
+		// The order in the list is any; each probe's result is its own.
+		uint start = probe_list_start(constants.cascade);
+		uint slot = atomicAdd(probe_list[start], 1u);
+		probe_list[start + PROBE_LIST_HEADER_WORDS + slot] = place;
+		atomicMax(probe_list[start + 1u], (slot + 1u) * probe_params.rays / 64u + 1u);
+		atomicMax(probe_list[start + 2u], 1u);
+		atomicMax(probe_list[start + 3u], 1u);
+		atomicMax(probe_list[start + 4u], slot + 1u);
+		atomicMax(probe_list[start + 5u], 1u);
+		atomicMax(probe_list[start + 6u], 1u);
+	}
 }

@@ -37,13 +37,18 @@ vec3 probe_position_m(uint cascade, ivec3 probe, ProbePlace place) {
 bool probe_is_free(ProbePlace place) {
 	return ((place.packed_offset >> 24) & PROBE_FREE) != 0u;
 }
-// Probes that no surface reads take turns.
-bool probe_is_due(ProbePlace place, uint index) {
-	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u || (index + probe_params.frame) % PROBE_FAR_PERIOD == 0u;
+bool probe_is_near(ProbePlace place) {
+	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u;
 }
-// The probe's own count of updates.
+// The probe's own count of updates: probes that no surface reads take turns.
 uint probe_turn(ProbePlace place) {
-	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u ? probe_params.frame : probe_params.frame / PROBE_FAR_PERIOD;
+	return probe_is_near(place) ? probe_params.frame : probe_params.frame / PROBE_FAR_PERIOD;
+}
+uint far_slice_size() {
+	return (probes_in_cascade() + PROBE_FAR_PERIOD - 1u) / PROBE_FAR_PERIOD;
+}
+uint probe_list_start(uint cascade) {
+	return cascade * (PROBE_LIST_HEADER_WORDS + probes_in_cascade());
 }
 ivec2 probe_tile(uint index, int tile_texels) {
 	return ivec2(int(index % PROBE_TILES_A_ROW), int(index / PROBE_TILES_A_ROW)) * tile_texels;

@@ -34,6 +34,7 @@ struct Sdfgi::Impl {
 	std::unique_ptr<GiWorld> world;
 	OwnedBuffer probe_params;
 	OwnedBuffer probe_places;
+	OwnedBuffer probe_list;
 	OwnedBuffer statistics;
 	OwnedTexture radiance_atlas;
 	OwnedTexture irradiance_atlas;
@@ -73,6 +74,7 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	const uint32_t rows = (probes + PROBE_TILES_A_ROW - 1) / PROBE_TILES_A_ROW;
 	probe_params = device.create_buffer({ .size_bytes = sizeof(shader::ProbeParams), .usage = BUFFER_UNIFORM, .name = "sdfgi.probe_params" });
 	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
+	probe_list = device.create_buffer({ .size_bytes = uint64_t(settings.cascades) * (PROBE_LIST_HEADER_WORDS + probes_in_cascade()) * 4, .usage = BUFFER_STORAGE | BUFFER_INDIRECT, .name = "sdfgi.probe_list" });
 	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
 	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
 		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
@@ -87,7 +89,7 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 }
 
 SdfgiPassInputs Sdfgi::Impl::pass_inputs() const {
-	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
+	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .probe_list = probe_list, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
 }
 
 // Lists the cascades that must be built anew. True: some moved.
@@ -138,8 +140,10 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	world->swap_light();
 	const SdfgiPassInputs lit = pass_inputs();
 	for (uint32_t i = 0; i < settings.cascades; i++) {
-		trace_probes(r_recorder, lit, i);
-		filter_probes(r_recorder, lit, i);
+		for (const bool far : { false, true }) {
+			trace_probes(r_recorder, lit, i, far);
+			filter_probes(r_recorder, lit, i, far);
+		}
 	}
 	ends_epoch = frame % settings.frames_to_converge == settings.frames_to_converge - 1;
 	frame++;

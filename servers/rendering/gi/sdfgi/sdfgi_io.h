@@ -18,6 +18,9 @@
 #define LIGHT_RECORDS_OUT 25
 #define LIGHT_RECORDS_STATISTICS 26
 
+// Bindings of the list of near probes
+#define PROBE_LIST 34
+
 #define PROBE_FREE 1 // not in a solid sub-voxel
 #define PROBE_NEAR 2 // a surface can read it: there is a stored cell in the eight blocks around it
 // Frames between the updates of a probe that is not near
@@ -44,6 +47,13 @@ struct LightRecordsConstants {
 struct ProbePlace {
 	uint packed_offset;
 };
+// The near probes of a cascade, outside of holes: PROBE_LIST_HEADER words, then their places.
+struct ProbeListHeader {
+	uint count;
+	uvec3 trace_groups; // indirect arguments
+	uvec3 filter_groups;
+};
+#define PROBE_LIST_HEADER_WORDS 8u // as if the header were padded to 32 bytes
 struct ProbeParams {
 	uint probes; // an axis
 	uint spacing_cells;
@@ -58,6 +68,7 @@ struct ProbeParams {
 };
 struct TraceProbesConstants {
 	uint cascade;
+	uint far; // 1: the probes that are not near, a slice a frame
 };
 struct GatherConstants {
 	mat4 world_from_clip;
@@ -74,5 +85,6 @@ struct SdfgiStatistics {
 INTEROP_END
 INTEROP_SIZE(LightRecordsConstants, 28)
 INTEROP_SIZE(ProbeParams, 48)
+INTEROP_SIZE(ProbeListHeader, 28)
 INTEROP_SIZE(GatherConstants, 88)
 #endif

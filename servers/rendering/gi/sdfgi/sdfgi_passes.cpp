@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "servers/rendering/gi/sdfgi/sdfgi_passes.h"
 
+#include "servers/rendering/gi/world/world_io.h"
+
 #include <cstddef>
 
 namespace lucent {
@@ -15,10 +17,12 @@ constexpr uint32_t OUT_2 = 22;
 } // namespace
 
 void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade) {
-	const shader::TraceProbesConstants constants = { .cascade = p_cascade };
+	const shader::ClearWordsConstants clear = { .first = p_in.probe_list_words(p_cascade), .count = PROBE_LIST_HEADER_WORDS, .value = 0 };
+	r_recorder.compute("sdfgi.clear_probe_list", Shader::CLEAR_WORDS).write(0, p_in.probe_list).constants(clear).dispatch_groups(1);
+	const shader::TraceProbesConstants constants = { .cascade = p_cascade, .far = 0 };
 	ComputePass pass = r_recorder.compute("sdfgi.place_probes", Shader::PLACE_PROBES);
 	p_in.world.bind_trace(pass);
-	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).write(OUT_0, p_in.probe_places).constants(constants).dispatch_threads(p_in.probes_in_cascade);
+	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).write(OUT_0, p_in.probe_places).read_write(PROBE_LIST, p_in.probe_list).constants(constants).dispatch_threads(p_in.probes_in_cascade);
 }
 
 void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants) {
@@ -35,23 +39,27 @@ void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const 
 			.dispatch_indirect(p_in.world.counts_handle(), p_constants.cascade * sizeof(shader::CascadeCounts) + offsetof(shader::CascadeCounts, light_groups));
 }
 
-void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade) {
-	const shader::TraceProbesConstants constants = { .cascade = p_cascade };
-	ComputePass pass = r_recorder.compute("sdfgi.trace_probes", Shader::TRACE_PROBES);
+void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far) {
+	const shader::TraceProbesConstants constants = { .cascade = p_cascade, .far = p_far ? 1u : 0u };
+	ComputePass pass = r_recorder.compute(p_far ? "sdfgi.trace_far_probes" : "sdfgi.trace_probes", Shader::TRACE_PROBES);
 	p_in.world.bind_light(pass, p_in.sky);
-	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).read(OUT_0, p_in.probe_places).read_write(OUT_1, p_in.radiance_atlas).read_write(OUT_2, p_in.statistics).constants(constants).dispatch_threads(p_in.probes_in_cascade * p_in.probe_rays);
+	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_OFFSETS, p_in.probe_places).read(PROBE_LIST, p_in.probe_list).read_write(OUT_1, p_in.radiance_atlas).read_write(OUT_2, p_in.statistics).constants(constants);
+	if (p_far) {
+		pass.dispatch_threads(p_in.far_slice() * p_in.probe_rays);
+	} else {
+		pass.dispatch_indirect(p_in.probe_list, 4 * p_in.probe_list_words(p_cascade) + offsetof(shader::ProbeListHeader, trace_groups));
+	}
 }
 
-void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade) {
-	const shader::TraceProbesConstants constants = { .cascade = p_cascade };
-	r_recorder.compute("sdfgi.filter_probes", Shader::FILTER_PROBES)
-			.uniform(WORLD_PARAMS, p_in.world.params_handle())
-			.uniform(GI_PROBE_PARAMS, p_in.probe_params)
-			.read_write(OUT_0, p_in.radiance_atlas)
-			.write(OUT_1, p_in.irradiance_atlas)
-			.read(OUT_2, p_in.probe_places)
-			.constants(constants)
-			.dispatch_groups(256, (p_in.probes_in_cascade + 255) / 256);
+void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far) {
+	const shader::TraceProbesConstants constants = { .cascade = p_cascade, .far = p_far ? 1u : 0u };
+	ComputePass pass = r_recorder.compute(p_far ? "sdfgi.filter_far_probes" : "sdfgi.filter_probes", Shader::FILTER_PROBES);
+	pass.uniform(WORLD_PARAMS, p_in.world.params_handle()).uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_OFFSETS, p_in.probe_places).read(PROBE_LIST, p_in.probe_list).read_write(OUT_0, p_in.radiance_atlas).write(OUT_1, p_in.irradiance_atlas).constants(constants);
+	if (p_far) {
+		pass.dispatch_groups(p_in.far_slice());
+	} else {
+		pass.dispatch_indirect(p_in.probe_list, 4 * p_in.probe_list_words(p_cascade) + offsetof(shader::ProbeListHeader, filter_groups));
+	}
 }
 
 } // namespace lucent

@@ -13,6 +13,7 @@ struct SdfgiPassInputs {
 	const GiWorld &world;
 	BufferHandle probe_params; // uniform ProbeParams
 	BufferHandle probe_places;
+	BufferHandle probe_list; // by cascade: ProbeListHeader, then places
 	TextureHandle radiance_atlas;
 	TextureHandle irradiance_atlas;
 	SamplerHandle probe_sampler;
@@ -21,12 +22,15 @@ struct SdfgiPassInputs {
 	BufferHandle statistics;
 	uint32_t probes_in_cascade = 0;
 	uint32_t probe_rays = 0;
+
+	uint32_t probe_list_words(uint32_t p_cascade) const { return p_cascade * (PROBE_LIST_HEADER_WORDS + probes_in_cascade); }
+	uint32_t far_slice() const { return (probes_in_cascade + PROBE_FAR_PERIOD - 1) / PROBE_FAR_PERIOD; }
 };
 
 void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
 void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants);
-void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
-void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
+void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far);
+void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far);
 
 // Binds what gi_sample_inc.glsl declares.
 template <typename Pass>

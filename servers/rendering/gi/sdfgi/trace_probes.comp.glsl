@@ -3,39 +3,25 @@
 // next `rays` of them, each ray is jittered within its texel and goes into the texel's running mean.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "servers/rendering/gi/sdfgi/probes_inc.glsl"
+#include "servers/rendering/gi/sdfgi/probe_list_inc.glsl"
 #include "servers/rendering/gi/world/surface_light_inc.glsl"
 #include "servers/rendering/shaders/sampling_inc.glsl"
 
-#define TRACE_PROBES_PLACES 20
 #define TRACE_PROBES_RADIANCE 21
 #define TRACE_PROBES_STATISTICS 22
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = TRACE_PROBES_PLACES, scalar) readonly buffer PlacesBlock {
-	ProbePlace places[];
-};
 layout(set = 0, binding = TRACE_PROBES_RADIANCE, rgba16f) uniform image2D radiance_atlas;
 layout(set = 0, binding = TRACE_PROBES_STATISTICS, scalar) buffer StatisticsBlock {
 	SdfgiStatistics statistics;
 };
-layout(push_constant, scalar) uniform TracePush {
-	TraceProbesConstants constants;
-};
-
 shared uint group_rays;
 
 void trace_ray(uint place, uint ray) {
 	uint index = constants.cascade * probes_in_cascade() + place;
 	ivec3 probe = probe_at_place(constants.cascade, place);
-	if (cell_in_hole(constants.cascade, probe * int(probe_params.spacing_cells))) {
-		return;
-	}
 	const uint TEXELS = PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS;
 	ProbePlace probe_place = places[index];
-	if (!probe_is_due(probe_place, index)) {
-		return;
-	}
 	uint turn = probe_turn(probe_place) * probe_params.rays + ray;
 	uint texel_index = turn % TEXELS;
 	uint visit = turn / TEXELS;
@@ -61,9 +47,9 @@ void main() {
 		group_rays = 0u;
 	}
 	barrier();
-	uint id = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
-	uint place = id / probe_params.rays;
-	if (place < probes_in_cascade()) {
+	uint id = gl_GlobalInvocationID.x;
+	uint place = place_of_slot(id / probe_params.rays);
+	if (place != NO_PLACE) {
 		trace_ray(place, id % probe_params.rays);
 	}
 	barrier();

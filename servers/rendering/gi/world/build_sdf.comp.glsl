@@ -8,6 +8,7 @@
 #define BUILD_SDF_FROM 20 // uint a cell: squared distance in cells^2
 #define BUILD_SDF_TO 21
 #define BUILD_SDF_PACKED 22
+#define BUILD_SDF_NEAR 23 // uint a brick of the window: mark_near_bricks
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
@@ -22,6 +23,9 @@ layout(set = 0, binding = BUILD_SDF_TO, scalar) writeonly buffer ToBlock {
 layout(set = 0, binding = BUILD_SDF_PACKED, scalar) writeonly buffer PackedBlock {
 	uint sdf[];
 };
+layout(set = 0, binding = BUILD_SDF_NEAR, scalar) readonly buffer NearBlock {
+	uint near_bricks[];
+};
 layout(push_constant, scalar) uniform BuildSdfPush {
 	BuildSdfConstants constants;
 };
@@ -34,36 +38,70 @@ uint line_index(uvec3 cell) {
 	return (cell.z * world.grid_size + cell.y) * world.grid_size + cell.x;
 }
 
-// Squared distance along the earlier axes at a cell of the window (0 .. grid_size - 1 from the cascade's origin).
-uint earlier(uvec3 cell) {
-	if (constants.axis == 0u) {
-		uvec3 storage = storage_from_world_cell(ivec3(cell) + world.cascades[constants.cascade].origin_cells);
-		return bit_is_set(occupancy[brick_of_cell(constants.cascade, storage)], bit_of_cell(storage)) ? 0u : FAR_SQUARED;
+// The bits of the four cells along x of a brick's row, at their place in the line; none outside of the window.
+uint row_bits(ivec3 cell, int brick_x) {
+	if (brick_x < 0 || brick_x * WORLD_BRICK_CELLS >= int(world.grid_size)) {
+		return 0u;
 	}
-	return from_squared[line_index(cell)];
+	uvec3 storage = storage_from_world_cell(ivec3(brick_x * WORLD_BRICK_CELLS, cell.yz) + world.cascades[constants.cascade].origin_cells);
+	uint bit = bit_of_cell(storage); // x part is 0: origins are multiples of a brick
+	return (occupancy[brick_of_cell(constants.cascade, storage)][bit >> 5] >> (bit & 31u)) & 15u;
 }
 
-void main() {
-	uvec3 cell = gl_GlobalInvocationID;
+// Squared distance to the nearest stored cell of the same line along x.
+uint distance_along_x(ivec3 cell) {
+	int brick_x = cell.x / WORLD_BRICK_CELLS;
+	int best = 1 << 12;
+	for (int i = 0; i <= WORLD_SDF_RADIUS_BRICKS; i++) {
+		uint right = row_bits(cell, brick_x + i);
+		uint left = row_bits(cell, brick_x - i);
+		int at_or_right = i == 0 ? cell.x & 3 : 0;
+		right &= 15u << at_or_right;
+		left &= i == 0 ? 15u >> (3 - (cell.x & 3)) : 15u;
+		if (right != 0u) {
+			best = min(best, (brick_x + i) * WORLD_BRICK_CELLS + findLSB(right) - cell.x);
+		}
+		if (left != 0u) {
+			best = min(best, cell.x - (brick_x - i) * WORLD_BRICK_CELLS - findMSB(left));
+		}
+		if (best <= 4 * i) {
+			break;
+		}
+	}
+	return min(uint(best * best), FAR_SQUARED);
+}
+
+uint distance_along_line(uvec3 cell) {
 	uint axis = constants.axis;
 	uint here = cell[axis];
-	uint best = earlier(cell);
+	uint best = from_squared[line_index(cell)];
 	for (uint offset = 1u; offset <= WORLD_SDF_RADIUS_CELLS + 1u && offset * offset < best; offset++) {
 		uvec3 other = cell;
 		if (here >= offset) {
 			other[axis] = here - offset;
-			best = min(best, earlier(other) + offset * offset);
+			best = min(best, from_squared[line_index(other)] + offset * offset);
 		}
 		if (here + offset < world.grid_size) {
 			other[axis] = here + offset;
-			best = min(best, earlier(other) + offset * offset);
+			best = min(best, from_squared[line_index(other)] + offset * offset);
 		}
 	}
-	if (axis < 2u) {
+	return best;
+}
+
+void main() {
+	uvec3 cell = gl_GlobalInvocationID;
+	// A group is a brick of the window.
+	uint bricks = world.grid_size / WORLD_BRICK_CELLS;
+	bool near = near_bricks[(gl_WorkGroupID.z * bricks + gl_WorkGroupID.y) * bricks + gl_WorkGroupID.x] != 0u;
+	uint best = FAR_SQUARED;
+	if (near) {
+		best = constants.axis == 0u ? distance_along_x(ivec3(cell)) : distance_along_line(cell);
+	}
+	if (constants.axis < 2u) {
 		to_squared[line_index(cell)] = best;
 		return;
 	}
-	// The group is a 4 x 4 x 4 block of the window; origins are multiples of 4 cells, so it is a brick.
 	uvec3 storage = storage_from_world_cell(ivec3(cell) + world.cascades[constants.cascade].origin_cells);
 	group_bytes[bit_of_cell(storage)] = min(255u, uint(floor(sqrt(float(best)) * WORLD_SDF_SCALE)));
 	barrier();

@@ -59,6 +59,8 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	accumulators = make_buffer("gi_world.accumulators", uint64_t(params.record_capacity) * sizeof(shader::RecordAccumulator));
 	distance_scratch[0] = make_buffer("gi_world.distance_scratch0", uint64_t(cell_count) * 4);
 	distance_scratch[1] = make_buffer("gi_world.distance_scratch1", uint64_t(cell_count) * 4);
+	near_bricks[0] = make_buffer("gi_world.near_bricks0", uint64_t(bricks) * 4);
+	near_bricks[1] = make_buffer("gi_world.near_bricks1", uint64_t(bricks) * 4);
 	surfaces.resize(p_desc.cascades);
 	sky_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
 }
@@ -145,11 +147,15 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 }
 
 void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
-	static constexpr const char *NAMES[] = { "gi_world.build_sdf_x", "gi_world.build_sdf_y", "gi_world.build_sdf_z" };
 	const uint32_t n = world_desc.grid_size;
+	const uint32_t bricks = n / WORLD_BRICK_CELLS;
 	for (uint32_t axis = 0; axis < 3; axis++) {
 		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
-		r_recorder.compute(NAMES[axis], Shader::BUILD_SDF).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, distance_scratch[(axis & 1) ^ 1]).write(OUT_1, distance_scratch[axis & 1]).write(OUT_2, sdf).constants(constants).dispatch_threads(n, n, n);
+		r_recorder.compute("gi_world.mark_near_bricks", Shader::MARK_NEAR_BRICKS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, near_bricks[(axis & 1) ^ 1]).write(OUT_1, near_bricks[axis & 1]).constants(constants).dispatch_threads(bricks, bricks, bricks);
+	}
+	for (uint32_t axis = 0; axis < 3; axis++) {
+		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
+		r_recorder.compute("gi_world.build_sdf", Shader::BUILD_SDF).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, distance_scratch[(axis & 1) ^ 1]).write(OUT_1, distance_scratch[axis & 1]).write(OUT_2, sdf).read(OUT_3, near_bricks[0]).constants(constants).dispatch_threads(n, n, n);
 	}
 }
 

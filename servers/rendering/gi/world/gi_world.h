@@ -89,6 +89,7 @@ private:
 	// Scratch of one cascade's build.
 	OwnedBuffer accumulators;
 	OwnedBuffer distance_scratch[2];
+	OwnedBuffer near_bricks[2];
 	std::vector<OwnedBuffer> surfaces; // by cascade
 	SamplerHandle sky_sampler;
 };

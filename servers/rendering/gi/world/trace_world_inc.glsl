@@ -37,7 +37,7 @@ uint find_cell(uint cascade, uvec3 storage) {
 	return index < cell_end(cascade) ? index : WORLD_LOST_CELL;
 }
 
-// Distance in cells to the nearest stored cell's centre, rounded down to an eighth.
+// Distance in cells to the nearest stored cell's centre, rounded down to a sixteenth.
 float sdf_cells(uint cascade, uvec3 storage) {
 	uint bit = bit_of_cell(storage);
 	uint word = world_sdf[brick_of_cell(cascade, storage) * 16u + (bit >> 2)];

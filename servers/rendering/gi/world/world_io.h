@@ -21,14 +21,15 @@
 #define WORLD_OCCUPANCY 1 // uvec2 a brick: bit x + 4 y + 16 z is set where the cell has storage
 #define WORLD_BRICK_CELL_BASE 2 // uint a brick: index of its first stored cell
 #define WORLD_CELLS 3 // WorldCell a stored cell
-#define WORLD_SDF 4 // a byte a cell: distance to the nearest stored cell's centre, in eighths of a cell, rounded down, 255: that or more
+#define WORLD_SDF 4 // a byte a cell: distance to the nearest stored cell's centre, in sixteenths of a cell, rounded down, 255: that or more
 #define WORLD_RECORDS 5 // WorldRecord
 #define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: irradiance / pi (times albedo: radiance) of all light; of all light but lamps'; w: 1 when lit
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
 
-#define WORLD_SDF_SCALE 8.0
-#define WORLD_SDF_RADIUS_CELLS 31
+#define WORLD_SDF_SCALE 16.0
+#define WORLD_SDF_RADIUS_CELLS 15
+#define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
 
 // Fixed-point scales of the accumulators: areas are in cells^2, so one record can take 4096 cell faces.
 #define WORLD_FIXED_AREA 1048576.0
