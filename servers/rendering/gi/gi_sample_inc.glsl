@@ -112,8 +112,8 @@ struct ProbeSums {
 	float weight;
 };
 
-// The eight probes around the point: trilinear x facing x visibility.
-ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_radiance) {
+// The eight probes around the point: trilinear x facing, and x visibility unless the caller only wants the shape of the light.
+ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_radiance, bool with_visibility) {
 	float spacing = float(probe_params.spacing_cells);
 	GiCascade c = world.cascades[cascade];
 	vec3 p = query.start_m / (c.cell_m * spacing);
@@ -136,7 +136,7 @@ ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_r
 		float weight = max(axis_weight.x * axis_weight.y * axis_weight.z, 1e-3);
 		float facing = dot(to_probe / distance_m, query.normal) * 0.5 + 0.5;
 		weight *= facing * facing + 0.02;
-		if (probe_params.use_occlusion != 0u && trace_world(query.start_m, to_probe / distance_m, distance_m, cascade).hit) {
+		if (with_visibility && trace_world(query.start_m, to_probe / distance_m, distance_m, cascade).hit) {
 			continue;
 		}
 		sums.irradiance += weight * textureLod(sampler2D(gi_probe_irradiance, gi_probe_sampler), probe_uv(index, query.normal, PROBE_IRRADIANCE_TEXELS, irradiance_size), 0.0).rgb;
@@ -172,11 +172,17 @@ GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
 		vec4 records = sample_records(query, cascade);
 		vec3 irradiance = records.rgb;
 		vec3 radiance = records.rgb;
-		if (records.w < 1.0 || (with_radiance && roughness < GI_DIFFUSE_ROUGHNESS)) {
-			ProbeSums probes = sample_probes(query, cascade, reflected, with_radiance);
+		bool glossy = with_radiance && roughness < GI_DIFFUSE_ROUGHNESS;
+		if (records.w < 1.0 || glossy) {
+			// Where records answer, probes only give the light's shape: their mirror direction against their own irradiance, so that
+			// probes behind a wall change little and no ray to them is needed.
+			bool with_visibility = probe_params.use_occlusion != 0u && records.w < 1.0;
+			ProbeSums probes = sample_probes(query, cascade, reflected, glossy, with_visibility);
 			if (probes.weight > 0.0) {
-				irradiance = mix(probes.irradiance / probes.weight, records.rgb, records.w);
-				radiance = mix(probes.radiance / probes.weight, irradiance, smoothstep(0.5, GI_DIFFUSE_ROUGHNESS, roughness));
+				vec3 probe_irradiance = probes.irradiance / probes.weight;
+				irradiance = mix(probe_irradiance, records.rgb, records.w);
+				vec3 scale = min(irradiance / max(probe_irradiance, vec3(1e-5)), vec3(4.0));
+				radiance = mix(probes.radiance / probes.weight * scale, irradiance, smoothstep(0.5, GI_DIFFUSE_ROUGHNESS, roughness));
 			}
 		}
 		result.irradiance += share * irradiance;

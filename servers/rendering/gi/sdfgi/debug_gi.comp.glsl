@@ -119,7 +119,7 @@ void main() {
 			uint at = finest_cascade(point_m);
 			if (at < world.cascade_count) {
 				find_query_start(query, at);
-				ProbeSums sums = sample_probes(query, at, direction, false);
+				ProbeSums sums = sample_probes(query, at, direction, false, true);
 				color = vec3(clamp(sums.weight, 0.0, 1.0));
 			}
 		}

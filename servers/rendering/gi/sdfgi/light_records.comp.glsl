@@ -233,7 +233,7 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 	uint cascade = record_cascade(record);
 	ivec3 cell = record_world_cell(record);
 	uint seed = hash_uint(uint(cell.x) * 73856093u ^ hash_uint(uint(cell.y) * 19349663u ^ hash_uint(uint(cell.z) * 83492791u ^ (record.cell >> 24))));
-	uint sample_index = (constants.frame % constants.epoch_frames) * LANES + lane;
+	uint sample_index = constants.epoch_turn * LANES + lane;
 
 	uint index = find_cell(cascade, storage_from_world_cell(cell));
 	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
@@ -293,11 +293,10 @@ vec3 advance(uint base, vec3 light, out float change) {
 	vec3 mean = state[base];
 	vec3 sum = state[base + 1u] + light;
 	float total = float(constants.epoch_frames);
-	uint turn = constants.frame % constants.epoch_frames;
-	float done = float(turn + 1u);
-	vec3 shown = constants.frame < constants.epoch_frames ? sum / done : mean + (sum - done * mean) / total;
+	float done = float(constants.epoch_turn + 1u);
+	vec3 shown = constants.first_epoch != 0u ? sum / done : mean + (sum - done * mean) / total;
 	change = 0.0;
-	if (turn == constants.epoch_frames - 1u) {
+	if (constants.epoch_turn == constants.epoch_frames - 1u) {
 		shown = sum / total;
 		change = dot(abs(shown - mean), vec3(1.0)) / max(dot(shown, vec3(1.0)), 1e-6);
 		mean = shown;
@@ -341,7 +340,7 @@ void main() {
 				float change;
 				vec3 shown = advance(index * 4u, indirect + lamps, change);
 				result.xy = half4_from_vec4(vec4(shown, 1.0));
-				if (constants.frame % constants.epoch_frames == constants.epoch_frames - 1u) {
+				if (constants.epoch_turn == constants.epoch_frames - 1u) {
 					atomicAdd(statistics.lit_records, dot(shown, vec3(1.0)) > 1e-6 ? 1u : 0u);
 					atomicAdd(statistics.changed_records, change > 0.01 ? 1u : 0u);
 				}

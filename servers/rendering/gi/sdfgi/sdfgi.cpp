@@ -47,6 +47,7 @@ struct Sdfgi::Impl {
 	BufferHandle lights;
 	uint32_t light_count = 0;
 	uint32_t frame = 0; // since the light was reset
+	uint32_t full_epochs = 0; // since then
 	bool converged = false;
 	bool ends_epoch = false; // the frame that was last recorded
 	GiStats stats;
@@ -125,15 +126,16 @@ void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p
 void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	r_recorder.clear_buffer(statistics);
 	const SdfgiPassInputs inputs = pass_inputs();
+	const LightEpoch epoch = light_epoch(frame, settings.frames_to_converge);
 	for (uint32_t i = 0; i < settings.cascades; i++) {
 		const shader::LightRecordsConstants constants = {
 			.cascade = i,
 			.frame = frame,
-			.epoch_frames = settings.frames_to_converge,
-			.rays = settings.cell_rays,
+			.epoch_frames = epoch.frames,
+			.epoch_turn = epoch.turn,
+			.first_epoch = epoch.index == 0 ? 1u : 0u,
 			.light_count = light_count,
 			.feedback = settings.bounce_feedback,
-			.seed_frame = frame,
 		};
 		light_records(r_recorder, inputs, constants);
 	}
@@ -145,7 +147,11 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 			filter_probes(r_recorder, lit, i, far);
 		}
 	}
-	ends_epoch = frame % settings.frames_to_converge == settings.frames_to_converge - 1;
+	// Short sets differ by their noise: only full ones tell whether the light has settled.
+	ends_epoch = epoch.frames == settings.frames_to_converge && epoch.turn == epoch.frames - 1;
+	if (ends_epoch) {
+		full_epochs++;
+	}
 	frame++;
 	stats.frames++;
 }
@@ -179,6 +185,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	}
 	if (!stale.empty() || p_scene.light_version != i.light_version || relight) {
 		i.frame = 0;
+		i.full_epochs = 0;
 		i.converged = false;
 		i.stats.frames = 0;
 	}
@@ -221,8 +228,7 @@ void Sdfgi::after_frame() {
 			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
 		}
 	}
-	const uint32_t epochs = i.frame / i.settings.frames_to_converge;
-	i.converged = epochs >= 2 && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || epochs >= MAX_EPOCHS);
+	i.converged = i.full_epochs >= 2 && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.full_epochs >= MAX_EPOCHS);
 	i.stats.converged = i.converged;
 	i.ends_epoch = false;
 }

@@ -20,4 +20,24 @@ Vector3i cascade_origin_cells(const Vector3 &p_camera_m, const Vector3 &p_cell_m
 	return origin;
 }
 
+LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames) {
+	constexpr uint32_t SETS_OF_A_LENGTH = 8;
+	LightEpoch epoch;
+	uint32_t start = 0;
+	for (uint32_t length = 1; length < p_full_frames; length *= 2) {
+		if (p_frame < start + SETS_OF_A_LENGTH * length) {
+			epoch.frames = length;
+			epoch.index += (p_frame - start) / length;
+			epoch.turn = (p_frame - start) % length;
+			return epoch;
+		}
+		start += SETS_OF_A_LENGTH * length;
+		epoch.index += SETS_OF_A_LENGTH;
+	}
+	epoch.frames = p_full_frames;
+	epoch.index += (p_frame - start) / p_full_frames;
+	epoch.turn = (p_frame - start) % p_full_frames;
+	return epoch;
+}
+
 } // namespace lucent

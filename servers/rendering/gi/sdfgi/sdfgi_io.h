@@ -37,11 +37,11 @@ INTEROP_BEGIN
 struct LightRecordsConstants {
 	uint cascade;
 	uint frame; // since the light was reset
-	uint epoch_frames; // frames of one full set of rays
-	uint rays; // a record and frame
+	uint epoch_frames; // frames of this set of rays
+	uint epoch_turn; // of them, done before this one
+	uint first_epoch; // 1: there is no earlier mean
 	uint light_count;
 	float feedback; // sdfgi_bounce_feedback
-	uint seed_frame; // never reset
 };
 // A probe's place: offset from its grid point in 1/16 cells, 8 bits an axis (signed), then PROBE_* bits.
 struct ProbePlace {
