@@ -76,7 +76,7 @@ vec4 sample_records(GiQuery query, uint cascade) {
 			continue;
 		}
 		uint packed_records = world_cells[cell].records;
-		uint index = packed_records >> 6;
+		uint index = cell_first_record(packed_records);
 		for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
 			WorldRecord record = world_records[index];
 			float facing = dot(n, record_normal(record));

@@ -40,7 +40,7 @@ vec3 view_of_hit(WorldHit hit, vec3 direction) {
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint packed_records = world_cells[hit.cell].records;
-	uint index = packed_records >> 6;
+	uint index = cell_first_record(packed_records);
 	uint end = record_end(hit.cascade);
 	for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];

@@ -217,7 +217,7 @@ bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	if (cell_is_split(faces) || (faces & (1u << face)) == 0u) {
 		return false;
 	}
-	uint neighbour = (packed_records >> 6) + uint(bitCount(faces & ((1u << face) - 1u)));
+	uint neighbour = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)));
 	return neighbour < record_end(hit.cascade) && world_records[neighbour].emission != 0u;
 }
 

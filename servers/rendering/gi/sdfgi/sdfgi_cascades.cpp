@@ -21,7 +21,7 @@ Vector3i cascade_origin_cells(const Vector3 &p_camera_m, const Vector3 &p_cell_m
 }
 
 LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames) {
-	constexpr uint32_t SETS_OF_A_LENGTH = 8;
+	constexpr uint32_t SETS_OF_A_LENGTH = 4;
 	LightEpoch epoch;
 	uint32_t start = 0;
 	for (uint32_t length = 1; length < p_full_frames; length *= 2) {

@@ -20,7 +20,7 @@ struct LightEpoch {
 };
 
 // The set that a frame (since the light was reset) belongs to. Light travels one bounce a set, so the first sets are short: one frame,
-// then two, four and eight, each length eight times, until p_full_frames, a power of two.
+// then two, four and eight, each length four times, until p_full_frames, a power of two.
 LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames);
 
 } // namespace lucent

@@ -34,7 +34,7 @@ struct SdfgiSettings {
 	uint32_t grid_size_cells = 128; // 64 to 256, a multiple of 32; cells an axis of each cascade
 	uint32_t probe_spacing_cells = 8; // 4, 8 or 16
 	uint32_t probe_rays = 16; // rays a probe and frame
-	uint32_t frames_to_converge = 8; // frames in one full set of rays (8 rays a surface record each), a power of two
+	uint32_t frames_to_converge = 16; // frames in one full set of rays (8 rays a frame and surface record), a power of two
 
 	bool operator==(const SdfgiSettings &) const = default;
 };

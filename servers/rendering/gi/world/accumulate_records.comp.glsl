@@ -2,6 +2,7 @@
 // Adds what each triangle shows in each cell to the records of the faces that it belongs to, weighted by area.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/world/clip_triangle_inc.glsl"
 #include "servers/rendering/gi/world/material_sample_inc.glsl"
 
 #define ACCUMULATE_RECORDS_WORDS 20
@@ -18,30 +19,6 @@ layout(set = 0, binding = WORLD_CELLS, scalar) readonly buffer CellsBlock {
 layout(set = 0, binding = ACCUMULATE_RECORDS_WORDS, scalar) buffer AccumulatorsBlock {
 	uint accumulator_words[]; // RecordAccumulator as 13 words, from the cascade's first record
 };
-
-// A triangle cut by six planes has at most nine corners.
-struct Polygon {
-	vec3 v[9];
-	uint count;
-};
-
-Polygon cut(Polygon polygon, uint axis, float limit, float side) {
-	Polygon result;
-	result.count = 0u;
-	for (uint i = 0u; i < polygon.count; i++) {
-		vec3 a = polygon.v[i];
-		vec3 b = polygon.v[i + 1u == polygon.count ? 0u : i + 1u];
-		float da = (a[axis] - limit) * side;
-		float db = (b[axis] - limit) * side;
-		if (da >= 0.0 && result.count < 9u) {
-			result.v[result.count++] = a;
-		}
-		if ((da >= 0.0) != (db >= 0.0) && result.count < 9u) {
-			result.v[result.count++] = mix(a, b, da / (da - db));
-		}
-	}
-	return result;
-}
 
 void add_to_record(uint record, float area, vec3 albedo, vec3 emission, vec3 area_normal, vec3 position) {
 	uint base = (record - record_base(constants.cascade)) * 13u;
@@ -63,15 +40,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	if (index >= cell_end(constants.cascade)) {
 		return;
 	}
-	Polygon polygon;
-	for (uint i = 0u; i < 3u; i++) {
-		polygon.v[i] = triangle.v[i] - vec3(cell);
-	}
-	polygon.count = 3u;
-	for (uint axis = 0u; axis < 3u && polygon.count > 0u; axis++) {
-		polygon = cut(polygon, axis, -CELL_TOUCH, 1.0);
-		polygon = cut(polygon, axis, 1.0 + CELL_TOUCH, -1.0);
-	}
+	Polygon polygon = clip_triangle(triangle, cell);
 	vec3 area_vector = vec3(0.0);
 	vec3 center = vec3(0.0);
 	float area_sum = 0.0;
@@ -99,7 +68,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	uint packed_records = cells[index].records;
 	uint mask = packed_records & 63u;
 	for (uint side = 0u; side < 2u; side++) {
-		uint record = (packed_records >> 6) + uint(bitCount(mask & ((1u << face) - 1u)));
+		uint record = cell_first_record(packed_records) + uint(bitCount(mask & ((1u << face) - 1u)));
 		if ((mask & (1u << face)) != 0u && record < record_end(constants.cascade)) {
 			add_to_record(record, area_sum, albedo.rgb, emission, area_normal, center);
 		}

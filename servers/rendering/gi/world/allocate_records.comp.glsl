@@ -47,7 +47,8 @@ uint walk_brick(uint brick_in_cascade, uint index, bool write) {
 			if (write) {
 				uvec3 storage = corner + uvec3(bit & 3u, (bit >> 2) & 3u, bit >> 4);
 				uint record = index + total;
-				cells[cell].records = (record << 6) | faces;
+				// Flat until mark_flat_cells finds otherwise; a cell whose records have no room is not.
+				cells[cell].records = (record << 6) | faces | (record + uint(bitCount(faces)) <= last_record ? WORLD_CELL_FLAT : 0u);
 				for (uint left = faces; left != 0u && record < last_record; left &= left - 1u) {
 					records[record].cell = (constants.cascade << 27) | (uint(findLSB(left)) << 24) | (storage.z << 16) | (storage.y << 8) | storage.x;
 					record++;

@@ -144,6 +144,9 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	ComputePass resolve = r_recorder.compute("gi_world.resolve_records", Shader::RESOLVE_RECORDS);
 	bind_trace(resolve);
 	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).write(OUT_4, record_state).constants(constants).dispatch_groups(1024);
+	if (groups > 0) {
+		voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS, true).read(WORLD_RECORDS, records).read_write(OUT_0, cells).dispatch_groups(std::min(groups, 32768u), rows);
+	}
 }
 
 void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {

@@ -64,7 +64,7 @@ void main() {
 		uvec2 bits = world_cells[find_cell(constants.cascade, storage_from_world_cell(cell))].bits;
 		// What of the cell's face a ray sees, of 16 columns. Rays see whole sub-voxels: spread the emission over what they see, so that the flux stays.
 		float seen = float(max(bitCount(columns_of_bits(bits, axis)), 1)) / 16.0;
-		float coverage = min(1.0, abs(area_vector[axis]) / seen);
+		float coverage = abs(area_vector[axis]) / seen;
 		uvec3 p = uvec3(clamp(center, 0.0, 1.0) * 511.0 + 0.5);
 		record.position = p.x | (p.y << 9) | (p.z << 18);
 		record.normal = packSnorm2x16(octahedral_from_direction(normal));

@@ -4,9 +4,6 @@
 #define SURFACE_LIGHT_INC
 #include "servers/rendering/gi/world/trace_world_inc.glsl"
 
-layout(set = 0, binding = WORLD_BINDING(WORLD_RECORDS), scalar) readonly buffer WorldRecordsBlock {
-	WorldRecord world_records[];
-};
 layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly buffer WorldRecordLightBlock {
 	uvec4 world_record_light[]; // xy: all light, zw: all but lamps'
 };
@@ -76,7 +73,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 	float sub_voxel_m = sub_voxel_along_m(hit.cascade, direction);
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
-	uint index = packed_records >> 6;
+	uint index = cell_first_record(packed_records);
 	for (; faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
 		vec3 normal = record_normal(record);

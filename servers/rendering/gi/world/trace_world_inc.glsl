@@ -2,6 +2,9 @@
 // Rays through the world: sphere steps by the distance field through empty cells, exact stepping through stored cells and
 // their sub-voxels. Every point of a ray is looked up in the finest cascade that holds it.
 //
+// Solid bits reach up to a sub-voxel beyond the surface. In a flat cell a ray therefore only stops in a solid sub-voxel where it
+// crosses the plane of one of the cell's records, or is behind all of them: openings keep their size.
+//
 // No leak: triangles set every sub-voxel that they touch, so any path through face-neighbouring sub-voxels that crosses a
 // surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space.
 #ifndef TRACE_WORLD_INC
@@ -19,6 +22,9 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_CELLS), scalar) readonly buffer Wo
 };
 layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer WorldSdfBlock {
 	uint world_sdf[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_RECORDS), scalar) readonly buffer WorldRecordsBlock {
+	WorldRecord world_records[];
 };
 
 #define WORLD_NO_CELL 0xFFFFFFFFu
@@ -82,16 +88,41 @@ bool sub_voxel_is_solid(uint cascade, vec3 position_m) {
 	return bit_is_set(world_cells[index].bits, s.x + 4u * s.y + 16u * s.z);
 }
 
-// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). Distances are along `rate` (sub-voxels per
-// metre). Returns the way to the first set bit, or a negative number.
-float trace_sub_voxels(uvec2 bits, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
+// Does the stretch from `a` to `b` (cell-local, in cells) cross a surface of a flat cell?
+bool crosses_surface(uint cascade, uint packed_records, vec3 a, vec3 b) {
+	vec3 cell_m = world.cascades[cascade].cell_m;
+	bool behind_all = true;
+	uint index = cell_first_record(packed_records);
+	for (uint faces = packed_records & 63u; faces != 0u; faces &= faces - 1u, index++) {
+		WorldRecord record = world_records[index];
+		vec3 normal = record_normal(record) * cell_m;
+		// Signed distances in metres, then against the tolerance of a flat cell.
+		vec3 center = record_position_in_cell(record);
+		float at_a = dot(a - center, normal);
+		float at_b = dot(b - center, normal);
+		float tolerance = 2.0 * WORLD_FLAT_SUB_VOXELS * cell_m.y / float(WORLD_SUB_VOXELS);
+		if (min(at_a, at_b) <= tolerance && max(at_a, at_b) >= -tolerance) {
+			return true;
+		}
+		behind_all = behind_all && at_a < 0.0;
+	}
+	return behind_all;
+}
+
+// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in
+// metres to the surface, or a negative number.
+float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
 	ivec3 s = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
 	ivec3 direction = ivec3(sign(rate));
 	vec3 t_next = (vec3(s) + step(vec3(0.0), rate) - entry) * inverse_rate;
+	bool flat_cell = (cell.records & WORLD_CELL_FLAT) != 0u;
 	float t = 0.0;
 	for (uint i = 0u; i < 12u; i++) {
-		if (bit_is_set(bits, uint(s.x + 4 * s.y + 16 * s.z))) {
-			return t;
+		if (bit_is_set(cell.bits, uint(s.x + 4 * s.y + 16 * s.z))) {
+			float t_leave = min(t_next.x, min(t_next.y, t_next.z));
+			if (!flat_cell || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
+				return t;
+			}
 		}
 		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
 			t = t_next.x;
@@ -172,7 +203,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 				uint index = find_cell(cascade, storage);
 				if (index < WORLD_LOST_CELL) {
 					vec3 entry = (o + rate * t - vec3(cell)) * float(WORLD_SUB_VOXELS);
-					float way = trace_sub_voxels(world_cells[index].bits, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+					float way = trace_sub_voxels(cascade, world_cells[index], entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
 					if (way >= 0.0) {
 						result.hit = true;
 						result.t_m = t + way;

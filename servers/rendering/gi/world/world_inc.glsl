@@ -83,6 +83,10 @@ uint face_from_normal(vec3 n) {
 	return axis * 2u + (n[axis] < 0.0 ? 1u : 0u);
 }
 
+uint cell_first_record(uint packed_records) {
+	return (packed_records & ~WORLD_CELL_FLAT) >> 6;
+}
+
 uint record_cascade(WorldRecord record) {
 	return record.cell >> 27;
 }

@@ -27,6 +27,10 @@
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
 
+// A cell is flat when no surface in it is further than this from its record's plane.
+#define WORLD_FLAT_SUB_VOXELS 0.08
+#define WORLD_CELL_FLAT 0x80000000u
+
 #define WORLD_SDF_SCALE 16.0
 #define WORLD_SDF_RADIUS_CELLS 15
 #define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
@@ -53,7 +57,7 @@ struct GiWorldParams {
 };
 struct WorldCell {
 	uvec2 bits; // sub-voxel x + 4 y + 16 z
-	uint records; // index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
+	uint records; // flat << 31 | index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
 };
 struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
