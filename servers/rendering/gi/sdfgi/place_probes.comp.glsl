@@ -3,7 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/sdfgi/probes_inc.glsl"
-#include "servers/rendering/gi/world/trace_world_inc.glsl"
+#include "servers/rendering/gi/world/world_lookup_inc.glsl"
 
 #define PLACE_PROBES_OUT 20
 

@@ -2,7 +2,7 @@
 // Sums to means: each record's albedo, emission, normal, centroid, and the free point that its rays start from.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "servers/rendering/gi/world/trace_world_inc.glsl"
+#include "servers/rendering/gi/world/world_lookup_inc.glsl"
 
 #define RESOLVE_RECORDS_ACCUMULATORS 20
 #define RESOLVE_RECORDS_COUNTS 21

@@ -9,46 +9,13 @@
 // surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space.
 #ifndef TRACE_WORLD_INC
 #define TRACE_WORLD_INC
-#include "servers/rendering/gi/world/world_inc.glsl"
+#include "servers/rendering/gi/world/world_lookup_inc.glsl"
 
-layout(set = 0, binding = WORLD_BINDING(WORLD_OCCUPANCY), scalar) readonly buffer WorldOccupancyBlock {
-	uvec2 world_occupancy[];
-};
-layout(set = 0, binding = WORLD_BINDING(WORLD_BRICK_CELL_BASE), scalar) readonly buffer WorldBrickCellBaseBlock {
-	uint world_brick_cell_base[];
-};
-layout(set = 0, binding = WORLD_BINDING(WORLD_CELLS), scalar) readonly buffer WorldCellsBlock {
-	WorldCell world_cells[];
-};
-layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer WorldSdfBlock {
-	uint world_sdf[];
-};
 layout(set = 0, binding = WORLD_BINDING(WORLD_RECORDS), scalar) readonly buffer WorldRecordsBlock {
 	WorldRecord world_records[];
 };
 
-#define WORLD_NO_CELL 0xFFFFFFFFu
-// A stored cell without memory for its content (capacity reached): solid and black.
-#define WORLD_LOST_CELL 0xFFFFFFFEu
 #define TRACE_MAX_STEPS 768
-
-uint find_cell(uint cascade, uvec3 storage) {
-	uint brick = brick_of_cell(cascade, storage);
-	uvec2 mask = world_occupancy[brick];
-	uint bit = bit_of_cell(storage);
-	if (!bit_is_set(mask, bit)) {
-		return WORLD_NO_CELL;
-	}
-	uint index = world_brick_cell_base[brick] + bits_below(mask, bit);
-	return index < cell_end(cascade) ? index : WORLD_LOST_CELL;
-}
-
-// Distance in cells to the nearest stored cell's centre, rounded down to a sixteenth.
-float sdf_cells(uint cascade, uvec3 storage) {
-	uint bit = bit_of_cell(storage);
-	uint word = world_sdf[brick_of_cell(cascade, storage) * 16u + (bit >> 2)];
-	return float((word >> ((bit & 3u) * 8u)) & 255u) / WORLD_SDF_SCALE;
-}
 
 struct WorldHit {
 	bool hit;
@@ -72,20 +39,6 @@ uint finest_cascade(vec3 position_m) {
 		}
 	}
 	return world.cascade_count;
-}
-
-bool sub_voxel_is_solid(uint cascade, vec3 position_m) {
-	vec3 p = position_m / world.cascades[cascade].cell_m;
-	ivec3 cell = ivec3(floor(p));
-	uint index = find_cell(cascade, storage_from_world_cell(cell));
-	if (index == WORLD_NO_CELL) {
-		return false;
-	}
-	if (index == WORLD_LOST_CELL) {
-		return true;
-	}
-	uvec3 s = uvec3(clamp(floor((p - vec3(cell)) * float(WORLD_SUB_VOXELS)), vec3(0.0), vec3(3.0)));
-	return bit_is_set(world_cells[index].bits, s.x + 4u * s.y + 16u * s.z);
 }
 
 // Does the stretch from `a` to `b` (cell-local, in cells) cross a surface of a flat cell?
