@@ -199,8 +199,8 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 	return kept;
 }
 
-// The ray has met the emitter's own cell, or a neighbour in the emitter's plane: solid bits stand up to a sub-voxel and its touch
-// before the surface, so that a flat ray meets them before the point that it is meant for.
+// The ray has met the emitter's own cell, or emission of the same face at most a cell before the emitter's plane: solid bits stand before
+// the surface, and a record's plane is the mean of what its cell holds, so that a flat ray meets neighbours before the point it is meant for.
 bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	WorldRecord emitter = world_records[target];
 	if (hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter)) {
@@ -208,17 +208,21 @@ bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	}
 	vec3 normal = record_normal(emitter);
 	float before_plane_m = (ray.t_max_m - hit.t_m) * -dot(normal, ray.direction);
-	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > 1.3 * sub_voxel_along_m(hit.cascade, normal)) {
+	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > float(WORLD_SUB_VOXELS) * sub_voxel_along_m(hit.cascade, normal)) {
 		return false;
 	}
 	uint packed_records = world_cells[hit.cell].records;
 	uint faces = packed_records & 63u;
 	uint face = record_face(emitter);
-	if (cell_is_split(faces) || (faces & (1u << face)) == 0u) {
+	uint index = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)));
+	if ((faces & (1u << face)) == 0u || index >= record_end(hit.cascade)) {
 		return false;
 	}
-	uint neighbour = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)));
-	return neighbour < record_end(hit.cascade) && world_records[neighbour].emission != 0u;
+	WorldRecord neighbour = world_records[index];
+	if (neighbour.emission == 0u || !record_has_start(neighbour)) {
+		return false;
+	}
+	return !cell_is_split(faces) || short_way_is_free(hit.cascade, free_point_before(hit, ray.direction), record_start_m(neighbour));
 }
 
 struct LaneLight {

@@ -60,6 +60,16 @@ vec3 sky_radiance(vec3 direction) {
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }
 
+// The last free point of the ray before a hit: hits in flat cells may lie under solid sub-voxels.
+vec3 free_point_before(WorldHit hit, vec3 direction) {
+	float step_m = 0.5 * sub_voxel_along_m(hit.cascade, direction);
+	vec3 point_m = hit.position_m - 0.5 * step_m * direction;
+	for (uint i = 0u; i < 12u && sub_voxel_is_solid(hit.cascade, point_m); i++) {
+		point_m -= step_m * direction;
+	}
+	return point_m;
+}
+
 // Radiance that leaves the hit against `direction`, from the records that face the ray; black behind one-sided surfaces. Reflected
 // light is multiplied by `reflected_scale`.
 vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with_emission) {
@@ -70,7 +80,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 	uint faces = packed_records & 63u;
 	uint end = record_end(hit.cascade);
 	bool split = cell_is_split(faces);
-	float sub_voxel_m = sub_voxel_along_m(hit.cascade, direction);
+	vec3 free_m = split ? free_point_before(hit, direction) : hit.position_m;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint index = cell_first_record(packed_records);
@@ -87,7 +97,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 		// A record without a start, or on the other side of a thin wall, shows black here.
 		bool reached = record_has_start(record);
 		if (reached && split) {
-			reached = short_way_is_free(hit.cascade, hit.position_m - direction * (0.25 * sub_voxel_m), record_start_m(record));
+			reached = short_way_is_free(hit.cascade, free_m, record_start_m(record));
 		}
 		vec3 radiance = reached ? light.rgb * color_from_unorm111110(record.albedo) * reflected_scale : vec3(0.0);
 		if (with_emission) {
