@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of emissive records that stand for themselves (outside of holes), with the running share of their power, by one work group.
+// The list of emissive records that stand for themselves (not those that a finer cascade holds too), with the running share of their power, by one work group.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/world_inc.glsl"
@@ -46,7 +46,7 @@ float seen_area_m2(WorldRecord record) {
 }
 
 float emitter_power(WorldRecord record) {
-	if (record.emission == 0u || !record_has_start(record) || cell_in_hole(record_cascade(record), record_world_cell(record))) {
+	if (record.emission == 0u || !record_has_start(record) || cell_in_finer(record_cascade(record), record_world_cell(record), 0)) {
 		return 0.0;
 	}
 	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * seen_area_m2(record);

@@ -120,14 +120,19 @@ vec3 record_start_m(WorldRecord record) {
 	return record_position_m(record) + n * (float(record.position >> 27) * 0.25 * sub_voxel_along_m(record_cascade(record), n));
 }
 
-// The cell is deep inside the next finer cascade, whose cells stand for it.
-bool cell_in_hole(uint cascade, ivec3 cell) {
+// The cell is at least `margin` cells inside the next finer cascade.
+bool cell_in_finer(uint cascade, ivec3 cell, int margin) {
 	if (cascade == 0u) {
 		return false;
 	}
-	ivec3 low = (world.cascades[cascade - 1u].origin_cells >> 1) + world.hole_margin_cells;
-	ivec3 high = ((world.cascades[cascade - 1u].origin_cells + int(world.grid_size)) >> 1) - world.hole_margin_cells;
+	ivec3 low = (world.cascades[cascade - 1u].origin_cells >> 1) + margin;
+	ivec3 high = ((world.cascades[cascade - 1u].origin_cells + int(world.grid_size)) >> 1) - margin;
 	return all(greaterThanEqual(cell, low)) && all(lessThan(cell, high));
+}
+
+// The cell is so deep inside the next finer cascade that nothing reads it.
+bool cell_in_hole(uint cascade, ivec3 cell) {
+	return cell_in_finer(cascade, cell, world.hole_margin_cells);
 }
 
 #endif
