@@ -71,7 +71,7 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	opaque(r_recorder, { scene, shading, assets, opaque_batches, gi ? targets.gi_irradiance : assets.black(), gi ? targets.gi_radiance : assets.black(), targets.depth, targets.color, targets.aov ? &aov : nullptr });
 	draw_sky(r_recorder, r_state.sky.inputs(), targets.depth, targets.color, targets.width, targets.height);
 	if (!transparent_batches.empty()) {
-		transparent(r_recorder, { scene, shading, assets, transparent_batches, targets.depth, targets.color });
+		transparent(r_recorder, { scene, shading, assets, transparent_batches, targets.depth, targets.color, gi ? [&](RenderPass &r_pass) { r_world.gi->bind_sampling(r_pass); } : std::function<void(RenderPass &)>() });
 	}
 	if (!p_viewport.debug_view.empty()) {
 		draw_debug_view(r_recorder, p_viewport.debug_view, setup, r_world, r_state);

@@ -5,15 +5,16 @@
 #ifndef GI_SAMPLE_INC
 #define GI_SAMPLE_INC
 #extension GL_EXT_samplerless_texture_functions : require
+#include "servers/rendering/gi/world/world_io.h"
 #include "servers/rendering/gi/sdfgi/probes_inc.glsl"
 #include "servers/rendering/gi/world/surface_light_inc.glsl"
 
-layout(set = 0, binding = GI_PROBE_IRRADIANCE) uniform texture2D gi_probe_irradiance;
-layout(set = 0, binding = GI_PROBE_RADIANCE) uniform texture2D gi_probe_radiance;
-layout(set = 0, binding = GI_PROBE_OFFSETS, scalar) readonly buffer GiProbePlacesBlock {
+layout(set = 0, binding = WORLD_BINDING(GI_PROBE_IRRADIANCE)) uniform texture2D gi_probe_irradiance;
+layout(set = 0, binding = WORLD_BINDING(GI_PROBE_RADIANCE)) uniform texture2D gi_probe_radiance;
+layout(set = 0, binding = WORLD_BINDING(GI_PROBE_OFFSETS), scalar) readonly buffer GiProbePlacesBlock {
 	ProbePlace gi_probe_places[];
 };
-layout(set = 0, binding = GI_PROBE_SAMPLER) uniform sampler gi_probe_sampler;
+layout(set = 0, binding = WORLD_BINDING(GI_PROBE_SAMPLER)) uniform sampler gi_probe_sampler;
 
 // Roughness from which a reflection is no longer traced, and from which it is read as irradiance; between them the probes' radiance.
 #define GI_TRACED_ROUGHNESS 0.25

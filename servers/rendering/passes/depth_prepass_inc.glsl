@@ -11,7 +11,8 @@ layout(push_constant, scalar) uniform Constants { DrawConstants draw; };
 void write_surface() {
 	MaterialUvs uvs = MaterialUvs(v_uvs.xy, v_uvs.zw);
 	vec3 mapped = material_normal(draw.material, uvs, normalize(v_normal), v_tangent);
-	out_normal_roughness = vec4(gl_FrontFacing ? mapped : -mapped, material_roughness(draw.material, uvs));
+	bool no_specular = materials[draw.material].specular == 0.0 && materials[draw.material].metallic == 0.0;
+	out_normal_roughness = vec4(gl_FrontFacing ? mapped : -mapped, no_specular ? PREPASS_NO_SPECULAR : material_roughness(draw.material, uvs));
 	bool seen = v_previous_clip.w > 1e-6 && v_clip.w > 1e-6;
 	out_motion = seen ? 0.5 * (v_clip.xy / v_clip.w - v_previous_clip.xy / v_previous_clip.w) : vec2(0.0);
 }

@@ -24,6 +24,8 @@
 #define SHADE_GI_IRRADIANCE 15
 #define SHADE_GI_RADIANCE 16
 
+// Roughness that the prepass writes where there is no specular lobe: GI looks up no reflection there.
+#define PREPASS_NO_SPECULAR 2.0
 #define MAX_DIRECTIONAL_LIGHTS 8
 #define SUN_SPLITS 4
 #define SKY_RADIANCE_LAYERS 6 // layer i holds roughness i / (SKY_RADIANCE_LAYERS - 1)

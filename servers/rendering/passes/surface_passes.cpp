@@ -71,7 +71,7 @@ void transparent(PassRecorder &r_recorder, const TransparentInputs &p_in) {
 	for (const DrawBatch &batch : p_in.batches) {
 		DrawState state;
 		state.vertex_shader = Shader::OPAQUE_VERT;
-		state.fragment_shader = Shader::TRANSPARENT_FRAG;
+		state.fragment_shader = p_in.bind_gi ? Shader::TRANSPARENT_GI_FRAG : Shader::TRANSPARENT_FRAG;
 		state.cull = cull_mode(batch.draw->cull);
 		state.depth_write = false;
 		state.blend = blend_mode(batch.draw->blend);
@@ -81,6 +81,9 @@ void transparent(PassRecorder &r_recorder, const TransparentInputs &p_in) {
 	pass.color(0, { p_in.color }, LoadOp::LOAD)
 			.depth_read_only({ p_in.depth });
 	bind_scene(pass, p_in.scene);
+	if (p_in.bind_gi) {
+		p_in.bind_gi(pass);
+	}
 	bind_shading(pass, p_in.shading).draw(draws);
 }
 

@@ -4,6 +4,8 @@
 
 #include "servers/rendering/passes/scene_bindings.h"
 
+#include <functional>
+
 namespace lucent {
 
 struct DepthPrepassInputs {
@@ -40,6 +42,7 @@ struct TransparentInputs {
 	std::span<const DrawBatch> batches; // back to front
 	TextureHandle depth;
 	TextureHandle color; // blended into
+	std::function<void(RenderPass &)> bind_gi; // binds what gi_sample_inc.glsl reads; empty: no GI
 };
 void transparent(PassRecorder &r_recorder, const TransparentInputs &p_in);
 

@@ -21,13 +21,13 @@ layout(push_constant, scalar) uniform GatherPush {
 vec3 traced_reflection(vec3 position_m, vec3 normal, vec3 view) {
 	uint cascade = finest_cascade(position_m);
 	if (cascade >= world.cascade_count) {
-		return sky_radiance(reflect(-view, normal));
+		return world_sky_radiance(reflect(-view, normal));
 	}
 	GiQuery query = GiQuery(position_m, normal, view, 0.0, position_m, false);
 	find_query_start(query, cascade);
 	vec3 direction = reflect(-view, normal);
 	WorldHit hit = trace_world(query.start_m, direction, 1e6, cascade);
-	return hit.hit ? hit_radiance(hit, direction, 1.0, true) : sky_radiance(direction);
+	return hit.hit ? hit_radiance(hit, direction, 1.0, true) : world_sky_radiance(direction);
 }
 
 void main() {

@@ -282,7 +282,7 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 		light.rays++;
 		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m, cascade);
 		if (k == 0u) {
-			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, hit.t_m < near_emitters_m()) : sky_radiance(ray.direction));
+			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, hit.t_m < near_emitters_m()) : world_sky_radiance(ray.direction));
 		} else if (k == 1u) {
 			light.indirect += !hit.hit || hit_is_emitter(hit, target, ray) ? ray.light : vec3(0.0);
 		} else {

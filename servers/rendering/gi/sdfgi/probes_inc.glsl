@@ -6,7 +6,7 @@
 #include "servers/rendering/gi/sdfgi/sdfgi_io.h"
 #include "servers/rendering/gi/world/world_inc.glsl"
 
-layout(set = 0, binding = GI_PROBE_PARAMS, scalar) uniform ProbeParamsBlock {
+layout(set = 0, binding = WORLD_BINDING(GI_PROBE_PARAMS), scalar) uniform ProbeParamsBlock {
 	ProbeParams probe_params;
 };
 

@@ -241,7 +241,7 @@ void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
 }
 
 void Sdfgi::bind_sampling(RenderPass &r_pass) const {
-	bind_gi_sampling(r_pass, impl->pass_inputs());
+	bind_gi_sampling(r_pass, impl->pass_inputs(), GI_SAMPLE_BINDING_BASE);
 }
 
 std::vector<std::string> Sdfgi::debug_views() {

@@ -34,9 +34,9 @@ void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32
 
 // Binds what gi_sample_inc.glsl declares.
 template <typename Pass>
-void bind_gi_sampling(Pass &r_pass, const SdfgiPassInputs &p_in) {
-	p_in.world.bind_light(r_pass, p_in.sky);
-	r_pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_IRRADIANCE, p_in.irradiance_atlas).read(GI_PROBE_RADIANCE, p_in.radiance_atlas).read(GI_PROBE_OFFSETS, p_in.probe_places).sampler(GI_PROBE_SAMPLER, p_in.probe_sampler);
+void bind_gi_sampling(Pass &r_pass, const SdfgiPassInputs &p_in, uint32_t p_base = 0) {
+	p_in.world.bind_light(r_pass, p_in.sky, p_base);
+	r_pass.uniform(p_base + GI_PROBE_PARAMS, p_in.probe_params).read(p_base + GI_PROBE_IRRADIANCE, p_in.irradiance_atlas).read(p_base + GI_PROBE_RADIANCE, p_in.radiance_atlas).read(p_base + GI_PROBE_OFFSETS, p_in.probe_places).sampler(p_base + GI_PROBE_SAMPLER, p_in.probe_sampler);
 }
 
 } // namespace lucent

@@ -40,14 +40,16 @@ public:
 	void swap_light() { current_light ^= 1; }
 
 	// Binds WORLD_PARAMS … WORLD_SDF / … WORLD_SKY_SAMPLER for shaders that include trace_world_inc.glsl / surface_light_inc.glsl.
+	// p_base: added to each binding, see GI_SAMPLE_BINDING_BASE.
 	template <typename Pass>
-	void bind_trace(Pass &r_pass) const {
-		r_pass.uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base).read(WORLD_CELLS, cells).read(WORLD_SDF, sdf);
+	void bind_trace(Pass &r_pass, uint32_t p_base = 0) const {
+		r_pass.uniform(p_base + WORLD_PARAMS, params_buffer).read(p_base + WORLD_OCCUPANCY, occupancy).read(p_base + WORLD_BRICK_CELL_BASE, brick_cell_base).read(p_base + WORLD_CELLS, cells).read(p_base + WORLD_SDF, sdf);
 	}
 	template <typename Pass>
-	void bind_light(Pass &r_pass, TextureHandle p_sky) const {
-		bind_trace(r_pass);
-		r_pass.read(WORLD_RECORDS, records).read(WORLD_RECORD_LIGHT, record_light[current_light]).read(WORLD_SKY, p_sky).sampler(WORLD_SKY_SAMPLER, sky_sampler);
+	void bind_light(Pass &r_pass, TextureHandle p_sky, uint32_t p_base = 0) const {
+		bind_trace(r_pass, p_base);
+		r_pass.read(p_base + WORLD_RECORDS, records).read(p_base + WORLD_RECORD_LIGHT, record_light[current_light]).read(p_base + WORLD_SKY, p_sky);
+		r_pass.sampler(p_base + WORLD_SKY_SAMPLER, sky_sampler);
 	}
 	BufferHandle params_handle() const { return params_buffer; }
 	BufferHandle counts_handle() const { return counts; }

@@ -55,7 +55,7 @@ bool cell_is_split(uint faces) {
 	return (faces & (faces >> 1) & 21u) != 0u;
 }
 
-vec3 sky_radiance(vec3 direction) {
+vec3 world_sky_radiance(vec3 direction) {
 	vec2 uv = octahedral_from_direction(direction) * 0.5 + 0.5;
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }

@@ -31,6 +31,9 @@
 #define WORLD_FLAT_SUB_VOXELS 0.08
 #define WORLD_CELL_FLAT 0x80000000u
 
+// Where a draw that samples GI finds these bindings and the probes': this much higher (transparent_inc.glsl).
+#define GI_SAMPLE_BINDING_BASE 32
+
 #define WORLD_SDF_SCALE 16.0
 #define WORLD_SDF_RADIUS_CELLS 15
 #define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
