@@ -52,7 +52,7 @@ suite() {
 check_format() {
 	local tool files
 	tool=$(command -v clang-format-14 || command -v clang-format)
-	find "$root"/{servers,drivers,modules,tests} -name '*.cpp' -print0 -o -name '*.h' -print0 -o -name '*.glsl' -print0 |
+	find "$root"/{servers,drivers,modules,tests} -name '*.cpp' -print0 -o -name '*.h' -print0 |
 		xargs -0 "$tool" --dry-run 2>"$root/bin/format.log" || true
 	files=$(sed -n 's/^\([^:]*\):[0-9].*\[-Wclang-format-violations\]$/\1/p' "$root/bin/format.log" | sort -u)
 	[[ -n $files ]] || return 0
