@@ -19,6 +19,7 @@ static const char HELP[] = "Lucent: real-time global illumination from signed di
 						   "  reference  path-trace a scene: the truth for what render draws (.exr)\n"
 						   "  compare    say how far a picture is from the truth\n"
 						   "  info       list Vulkan devices and what they can do\n"
+						   "  doctool    write the class reference as Godot-format XML\n"
 						   "\n"
 						   "Options:\n"
 						   "  --version  print the version\n"
@@ -38,6 +39,7 @@ struct Command {
 static const Command COMMANDS[] = {
 #ifdef MODULE_SCENE_ENABLED
 	{ "render", render_command },
+	{ "doctool", doctool_command },
 #endif
 #if defined(MODULE_REFERENCE_ENABLED) && defined(MODULE_SCENE_ENABLED) && defined(MODULE_IMAGE_ENABLED)
 	{ "reference", reference_command },
