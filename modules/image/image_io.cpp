@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/image/image_io.h"
 
+#include "modules/image/hdr_io.h"
 #include "servers/core/file_io.h"
 
 #include <climits>
@@ -9,7 +10,8 @@
 #define STBI_MAX_DIMENSIONS 32768
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
-#define STBI_ONLY_HDR
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
 #define STBI_NO_STDIO
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -30,6 +32,13 @@ bool begins_with(std::span<const std::byte> p_bytes, std::string_view p_magic) {
 	return p_bytes.size() >= p_magic.size() && std::memcmp(p_bytes.data(), p_magic.data(), p_magic.size()) == 0;
 }
 
+// The decoder fills up what is missing with grey. The last scan must be followed by an end marker; a thumbnail's come before it.
+bool is_jpeg_whole(std::span<const std::byte> p_bytes) {
+	const std::string_view text(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size());
+	const size_t scan = text.rfind("\xff\xda");
+	return scan != std::string_view::npos && text.find("\xff\xd9", scan) != std::string_view::npos;
+}
+
 Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::string &p_name, const char *p_kind) {
 	if (p_bytes.size() > INT_MAX) {
 		return make_error("{}: {} bytes are more than the limit of {}", p_name, p_bytes.size(), INT_MAX);
@@ -44,13 +53,7 @@ Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::strin
 		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, width, height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
 	}
 	Image image;
-	void *texels = nullptr;
-	if (stbi_is_hdr_from_memory(bytes, size)) {
-		image.format = ImageFormat::RGBA32F;
-		texels = stbi_loadf_from_memory(bytes, size, &width, &height, &channels, 4);
-	} else {
-		texels = stbi_load_from_memory(bytes, size, &width, &height, &channels, 4);
-	}
+	stbi_uc *texels = stbi_load_from_memory(bytes, size, &width, &height, &channels, 4);
 	if (!texels) {
 		return make_error("{}: broken or truncated {} data ({})", p_name, p_kind, stbi_failure_reason());
 	}
@@ -127,10 +130,10 @@ Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const s
 		return load_with_stb(p_bytes, p_name, "PNG");
 	}
 	if (begins_with(p_bytes, "\xff\xd8\xff")) {
-		return load_with_stb(p_bytes, p_name, "JPEG");
+		return is_jpeg_whole(p_bytes) ? load_with_stb(p_bytes, p_name, "JPEG") : make_error("{}: truncated JPEG data (no end marker)", p_name);
 	}
 	if (begins_with(p_bytes, "#?RADIANCE") || begins_with(p_bytes, "#?RGBE")) {
-		return load_with_stb(p_bytes, p_name, "HDR");
+		return load_hdr(p_bytes, p_name);
 	}
 	if (begins_with(p_bytes, "\x76\x2f\x31\x01")) {
 		return load_exr(p_bytes, p_name);

@@ -39,6 +39,18 @@ bool contains(const std::string &p_text, const std::string &p_part) {
 	return p_text.find(p_part) != std::string::npos;
 }
 
+// 8 x 8 texels of grey: one block whose coefficients are all zero.
+std::vector<std::byte> tiny_jpeg() {
+	std::string file("\xff\xd8\xff\xdb\0\x43\0", 7);
+	file += std::string(64, '\1');
+	file += std::string("\xff\xc0\0\x0b\x08\0\x08\0\x08\1\1\x11\0", 13);
+	for (const char table : { '\0', '\x10' }) { // one code, "0", for "nothing"
+		file += std::string("\xff\xc4\0\x14", 4) + table + '\1' + std::string(15, '\0') + '\0';
+	}
+	file += std::string("\xff\xda\0\x08\1\1\0\0\x3f\0\x3f\xff\xd9", 13);
+	return to_bytes(file);
+}
+
 } // namespace
 
 TEST_CASE("PNG: RGB and RGBA come back as they were written, twice the same bytes") {
@@ -112,6 +124,34 @@ TEST_CASE("HDR: RGBE texels are decoded") {
 	CHECK(float_at(image, 0, 0) == doctest::Approx(1.0f));
 	CHECK(float_at(image, 0, 1) == doctest::Approx(0.5f));
 	CHECK(float_at(image, 1, 0) == 0.0f);
+}
+
+TEST_CASE("HDR: run-length encoded rows are decoded, cut ones are an error") {
+	const std::string header = "#?RADIANCE\n# comment\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 9\n";
+	// Red: 9 times 128. Green: 8 times 64, then 32. Blue: 9 single values. Exponent: 9 times 129.
+	const std::string row = std::string("\2\2\0\11", 4) + "\x89\x80" + "\x88\x40\x01\x20" + "\x09" + std::string("\0\1\2\3\4\5\6\7\x10", 9) + "\x89\x81";
+	const Image image = load_image_from_memory(to_bytes(header + row), "a.hdr").take();
+	CHECK(float_at(image, 8, 0) == 1.0f);
+	CHECK(float_at(image, 7, 1) == 0.5f);
+	CHECK(float_at(image, 8, 1) == 0.25f);
+	CHECK(float_at(image, 8, 2) == 0.125f);
+	for (size_t size = 0; size < row.size(); size++) {
+		CHECK(!load_image_from_memory(to_bytes(header + row.substr(0, size)), "a.hdr").ok());
+	}
+	CHECK(!load_image_from_memory(to_bytes(header + "\2\2" + std::string("\0\11", 2) + std::string(60, '\xff')), "a.hdr").ok());
+}
+
+TEST_CASE("JPEG: a grey picture is decoded, a cut one is an error") {
+	const std::vector<std::byte> whole = tiny_jpeg();
+	const Image image = load_image_from_memory(whole, "a.jpg").take();
+	CHECK(image.width == 8);
+	CHECK(image.height == 8);
+	CHECK(int(image.texels[0]) == doctest::Approx(128).epsilon(0.02));
+	CHECK(int(image.texels[3]) == 255);
+	for (size_t size = 3; size < whole.size(); size += 7) {
+		const Result<Image> cut = load_image_from_memory(std::span(whole).first(size), "a.jpg");
+		CHECK_MESSAGE(!cut.ok(), "cut to " << size);
+	}
 }
 
 TEST_CASE("A broken image gives one error that names the file") {
