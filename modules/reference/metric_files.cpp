@@ -65,6 +65,9 @@ Result<MetricImage> load_exr(const std::string &p_path, const std::string &p_lay
 	const std::string layers = p_layers.empty() ? "color" : p_layers;
 	while (start <= layers.size()) {
 		const size_t end = std::min(layers.find_first_of("+-", start), layers.size());
+		if (end == start) {
+			return make_error("{}: expected a layer's name in '{}' where there is none", p_path, p_layers);
+		}
 		if (const Status status = add_layer(p_path, file.value(), layers.substr(start, end - start), sign, image); !status) {
 			return status.error();
 		}

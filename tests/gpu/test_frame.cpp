@@ -245,6 +245,36 @@ TEST_CASE("frame: a blended panel of alpha 1 equals the opaque one") {
 	}
 }
 
+TEST_CASE("frame: GI lights a blended panel of alpha 1 as an opaque one") {
+	Vector3 colors[2];
+	for (const TransparencyMode mode : { TransparencyMode::OPAQUE, TransparencyMode::ALPHA_BLEND }) {
+		Stage stage;
+		SdfgiSettings settings;
+		settings.enabled = true;
+		settings.cascades = 1;
+		settings.grid_size_cells = 64;
+		settings.min_cell_size_m = 0.15f;
+		settings.y_scale = SdfgiYScale::SCALE_100_PERCENT; // 9.6 m around the camera at 3 m
+		stage.server->environment_set_sdfgi(stage.environment, settings);
+		stage.server->environment_set_bg_color(stage.environment, Vector3(0.5f, 1.0f, 2.0f));
+		Material material;
+		material.albedo = Vector4(0.8f, 0.4f, 0.2f, 1.0f);
+		material.roughness = 0.3f;
+		material.transparency = mode;
+		const MaterialRid rid = stage.server->material_create();
+		stage.server->material_set(rid, material);
+		stage.add_quad(0.5f, rid, Transform3D{ Basis(1.0f), Vector3(0, 0.5f, 0) });
+		for (int frame = 0; frame < 4; frame++) {
+			stage.server->draw();
+		}
+		colors[size_t(mode)] = pixel(stage.draw(), 0.5f, 0.5f);
+	}
+	for (int k = 0; k < 3; k++) {
+		CHECK(colors[0][k] > 0.05f);
+		CHECK(colors[1][k] == doctest::Approx(colors[0][k]).epsilon(0.01));
+	}
+}
+
 TEST_CASE("frame: a constant sky lights every direction alike") {
 	Stage stage;
 	const SkyRid sky = stage.server->sky_create();

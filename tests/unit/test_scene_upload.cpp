@@ -102,8 +102,9 @@ TEST_CASE("scene cull: neighbours of one mesh and material become one draw") {
 	SceneDraw other = draw;
 	other.material = 1;
 	builder.add(other);
-	other.mirrored = true;
-	builder.add(other);
+	SceneDraw mirrored = other; // batches keep pointers to what they draw
+	mirrored.mirrored = true;
+	builder.add(mirrored);
 	REQUIRE(builder.batches.size() == 3);
 	CHECK(builder.batches[0].instance_count == 3);
 	CHECK(builder.batches[1].first_instance == 3);
