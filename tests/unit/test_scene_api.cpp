@@ -100,7 +100,6 @@ TEST_CASE("every sdfgi property of Godot is there") {
 	int count = 0;
 	for (const auto &member_item : api["Environment"]["members"].items()) { // clang 14: a structured binding cannot be captured by INFO
 		const std::string &name = member_item.key();
-		const nlohmann::json &member = member_item.value();
 		if (name.starts_with("sdfgi_")) {
 			INFO(name);
 			CHECK(ClassDB::get_property("Environment", name));
