@@ -2,8 +2,8 @@
 #include "modules/app/commands.h"
 #include "modules/app/compare_options.h"
 #include "modules/app/exit_codes.h"
-#include "modules/reference/metric_files.h"
 #include "modules/image/image_io.h"
+#include "modules/reference/metric_files.h"
 
 #include <nlohmann/json.hpp>
 

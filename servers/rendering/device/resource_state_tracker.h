@@ -35,7 +35,8 @@ class ResourceStateTracker {
 public:
 	ResourceStateTracker() = default;
 	// p_command 0: its uses are of no command, and conflict with none.
-	explicit ResourceStateTracker(uint32_t p_command) : command(p_command) {}
+	explicit ResourceStateTracker(uint32_t p_command) :
+			command(p_command) {}
 	void use_buffer(DriverBuffer p_buffer, AccessState &r_state, uint32_t p_access);
 	// p_discard: the old contents are not needed. False: this command needs it in two layouts at once.
 	bool use_texture(DriverTexture p_texture, TextureState &r_state, const TextureRange &p_range, uint32_t p_access, TextureLayout p_layout, bool p_discard = false);
