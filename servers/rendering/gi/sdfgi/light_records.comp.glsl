@@ -10,6 +10,7 @@
 #include "servers/rendering/shaders/scene_io.h"
 
 #define LANES 8u
+#define SLANT_MIN_COSINE 0.1
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = LIGHT_RECORDS_LIGHTS, scalar) readonly buffer LightsBlock {
@@ -43,25 +44,50 @@ shared vec3 group_indirect[64];
 shared vec3 group_lamps[64];
 shared uint group_rays;
 
-// A point of the record's surface within its cell, off the surface by the start offset: the centroid's start, or, where a
-// straight way from there is free, the start above another column of the cell's sub-voxels.
-vec3 jittered_start(WorldRecord record, uvec2 bits, vec3 normal, vec3 start_m, vec2 u) {
-	uint cascade = record_cascade(record);
+// What a lane's rays leave from.
+struct LaneOrigin {
+	uint cascade;
+	vec3 surface_m; // where the light falls
+	vec3 start_m; // in the free space in front of it
+	vec3 normal;
+	float offset_m; // between the two
+};
+
+// A point of the record's surface within its cell: the centroid or, where a straight way from the centroid's start is free, a
+// point over another column of the cell's sub-voxels.
+LaneOrigin jittered_origin(WorldRecord record, uvec2 bits, vec2 u) {
+	LaneOrigin origin;
+	origin.cascade = record_cascade(record);
+	origin.normal = record_normal(record);
+	origin.surface_m = record_position_m(record);
+	origin.start_m = record_start_m(record);
+	origin.offset_m = dot(origin.start_m - origin.surface_m, origin.normal);
 	uint axis = record_face(record) >> 1;
 	uint a = (axis + 1u) % 3u;
 	uint b = (axis + 2u) % 3u;
-	vec3 cell_m = world.cascades[cascade].cell_m;
+	vec3 cell_m = world.cascades[origin.cascade].cell_m;
 	vec3 offset = vec3(0.0);
 	vec3 center = record_position_in_cell(record);
 	offset[a] = (u.x - center[a]) * cell_m[a];
 	offset[b] = (u.y - center[b]) * cell_m[b];
 	// Slide within the record's plane.
-	offset[axis] = -(offset[a] * normal[a] + offset[b] * normal[b]) / normal[axis];
+	offset[axis] = -(offset[a] * origin.normal[a] + offset[b] * origin.normal[b]) / origin.normal[axis];
 	offset[axis] = clamp(offset[axis], -cell_m[axis], cell_m[axis]);
 	uvec2 column = min(uvec2(u * 4.0), uvec2(3u));
 	bool surface = ((columns_of_bits(bits, axis) >> (column.x + 4u * column.y)) & 1u) != 0u;
-	vec3 moved = start_m + offset;
-	return surface && short_way_is_free(cascade, start_m, moved) ? moved : start_m;
+	if (surface && short_way_is_free(origin.cascade, origin.start_m, origin.start_m + offset)) {
+		origin.surface_m += offset;
+		origin.start_m += offset;
+	}
+	return origin;
+}
+
+// The point where a ray from the surface is as far off it as the start, if a straight way leads there from the start; else the
+// start. A ray from the start itself would run beside the true one: light that falls at a slant would be lost or gained.
+vec3 ray_start_m(LaneOrigin origin, vec3 direction) {
+	float way_m = origin.offset_m / max(dot(direction, origin.normal), SLANT_MIN_COSINE);
+	vec3 on_ray_m = origin.surface_m + direction * way_m;
+	return short_way_is_free(origin.cascade, origin.start_m, on_ray_m) ? on_ray_m : origin.start_m;
 }
 
 float light_attenuation(LightData light, vec3 to_light, float distance_m) {
@@ -107,8 +133,6 @@ struct LaneLight {
 };
 
 LaneLight light_of_lane(WorldRecord record, uint lane) {
-	vec3 normal = record_normal(record);
-	vec3 start_m = record_start_m(record);
 	uint cascade = record_cascade(record);
 	ivec3 cell = record_world_cell(record);
 	uint seed = hash_uint(uint(cell.x) * 73856093u ^ hash_uint(uint(cell.y) * 19349663u ^ hash_uint(uint(cell.z) * 83492791u ^ (record.cell >> 24))));
@@ -116,7 +140,7 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 
 	uint index = find_cell(cascade, storage_from_world_cell(cell));
 	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
-	vec3 from_m = jittered_start(record, bits, normal, start_m, r2_point(sample_index, seed + 5u));
+	LaneOrigin origin = jittered_origin(record, bits, r2_point(sample_index, seed + 5u));
 
 	// Lamps take turns: `slots` is their count rounded up to a power of two, so that an epoch holds each equally often.
 	uint slots = 1u;
@@ -131,14 +155,14 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 		LightRay ray;
 		uint target = 0u;
 		if (k == 0u) {
-			ray.direction = cosine_direction(r2_point(sample_index, seed), normal);
+			ray.direction = cosine_direction(r2_point(sample_index, seed), origin.normal);
 			ray.t_max_m = 1e6;
 			ray.light = vec3(1.0 / float(LANES));
 		} else if (k == 1u) {
 			if (emitter_count == 0u) {
 				continue;
 			}
-			EmitterSample emitter = resample_emitter(from_m, normal, sample_index, seed + 3u);
+			EmitterSample emitter = resample_emitter(origin.surface_m, origin.normal, sample_index, seed + 3u);
 			ray = emitter.ray;
 			ray.light /= float(LANES);
 			target = emitter.record;
@@ -148,16 +172,19 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 			if (lamp >= constants.light_count) {
 				continue;
 			}
-			ray = ray_to_lamp(lights[lamp], from_m, normal, r2_point(sample_index, seed + 7u));
+			ray = ray_to_lamp(lights[lamp], origin.surface_m, origin.normal, r2_point(sample_index, seed + 7u));
 			ray.light *= float(slots) / float(LANES * lamp_rays);
 		}
 		if (ray.light == vec3(0.0)) {
 			continue;
 		}
 		light.rays++;
-		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m, cascade);
+		vec3 from_m = ray_start_m(origin, ray.direction);
+		float skipped_m = dot(from_m - origin.surface_m, ray.direction);
+		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m - skipped_m, cascade);
+		hit.t_m += skipped_m;
 		if (k == 0u) {
-			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, hit.t_m < near_emitters_m()) : world_sky_radiance(ray.direction));
+			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, emitter_count == 0u || hit.t_m < near_emitters_m()) : world_sky_radiance(ray.direction));
 		} else if (k == 1u) {
 			light.indirect += !hit.hit || hit_is_emitter(hit, target, ray) ? ray.light : vec3(0.0);
 		} else {

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/clip_triangle_inc.glsl"
 #include "servers/rendering/gi/world/material_sample_inc.glsl"
+#include "servers/rendering/gi/world/visit_triangles_inc.glsl"
 
 #define ACCUMULATE_RECORDS_WORDS 20
 

@@ -71,7 +71,8 @@ void main() {
 			}
 			if (lane == 0u) {
 				emitters_wanted = group_total;
-				emitter_count = min(group_total, uint(emitters.length()));
+				// More than the list holds: the gather rays see all emission, as they do that of near emitters.
+				emitter_count = group_total <= uint(emitters.length()) ? group_total : 0u;
 			}
 		}
 		for (uint c = 0u; c < world.cascade_count; c++) {

@@ -19,6 +19,9 @@ constexpr uint32_t VOXEL_MATERIALS = 14;
 constexpr uint32_t VOXEL_ATTRIBUTES = 15;
 constexpr uint32_t VOXEL_TEXTURES = 16;
 constexpr uint32_t VOXEL_SAMPLER = 17;
+constexpr uint32_t VOXEL_STRETCHES = 18;
+
+constexpr uint32_t STRETCH_CAPACITY = 131072; // 512 triangles that fill a cascade of 128 cells an axis
 
 constexpr uint32_t EMITTER_CAPACITY = 16384;
 constexpr uint32_t STATE_BYTES = 4 * 12; // light_records.comp.glsl: four vec3 a record
@@ -57,6 +60,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	emitters = make_buffer("gi_world.emitters", EMITTER_CAPACITY * sizeof(shader::Emitter));
 	emitter_count = make_buffer("gi_world.emitter_count", 8);
 	accumulators = make_buffer("gi_world.accumulators", uint64_t(params.record_capacity) * sizeof(shader::RecordAccumulator));
+	column_stretches = make_buffer("gi_world.column_stretches", 4 + STRETCH_CAPACITY * sizeof(shader::ColumnStretch));
 	distance_scratch[0] = make_buffer("gi_world.distance_scratch0", uint64_t(cell_count) * 4);
 	distance_scratch[1] = make_buffer("gi_world.distance_scratch1", uint64_t(cell_count) * 4);
 	near_bricks[0] = make_buffer("gi_world.near_bricks0", uint64_t(bricks) * 4);
@@ -117,35 +121,41 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	clear_words(r_recorder, "gi_world.clear_cells", cells, p_cascade * params.cell_capacity * 3, params.cell_capacity * 3);
 	clear_words(r_recorder, "gi_world.clear_accumulators", accumulators, 0, params.record_capacity * sizeof(shader::RecordAccumulator) / 4);
 
-	// 32768 groups of 64 triangles a row.
-	const uint32_t groups = (constants.triangle_count + 63) / 64;
-	const uint32_t rows = (groups + 32767) / 32768;
-	const auto voxelize = [&](const char *p_name, Shader p_shader, bool p_materials) {
+	clear_words(r_recorder, "gi_world.clear_column_stretches", column_stretches, 0, 1);
+
+	// 32768 groups of 64 triangles or stretches a row.
+	const uint32_t triangle_groups = (constants.triangle_count + 63) / 64;
+	const uint32_t groups = triangle_groups > 0 ? triangle_groups + STRETCH_CAPACITY / 64 : 0;
+	const auto dispatch = [](ComputePass p_pass, uint32_t p_groups) { p_pass.dispatch_groups(std::min(p_groups, 32768u), (p_groups + 32767) / 32768); };
+	const auto geometry = [&](const char *p_name, Shader p_shader) {
 		ComputePass pass = r_recorder.compute(p_name, p_shader);
 		pass.uniform(WORLD_PARAMS, params_buffer).read(VOXEL_SURFACES, surfaces[p_cascade]).read(VOXEL_POSITIONS, p_scene.positions).read(VOXEL_INDICES, p_scene.indices).read(VOXEL_INSTANCES, p_scene.instances).constants(constants);
-		if (p_materials) {
-			pass.read(VOXEL_MATERIALS, p_scene.materials).read(VOXEL_ATTRIBUTES, p_scene.attributes).read(VOXEL_TEXTURES, p_scene.gi_textures).sampler(VOXEL_SAMPLER, p_scene.gi_sampler);
-			pass.read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
-		}
+		return pass;
+	};
+	const auto voxelize = [&](const char *p_name, Shader p_shader) {
+		ComputePass pass = geometry(p_name, p_shader);
+		pass.read(VOXEL_STRETCHES, column_stretches).read(VOXEL_MATERIALS, p_scene.materials).read(VOXEL_ATTRIBUTES, p_scene.attributes).read(VOXEL_TEXTURES, p_scene.gi_textures).sampler(VOXEL_SAMPLER, p_scene.gi_sampler);
+		pass.read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
 		return pass;
 	};
 	if (groups > 0) {
-		voxelize("gi_world.mark_cells", Shader::MARK_CELLS, false).read_write(WORLD_OCCUPANCY, occupancy).dispatch_groups(std::min(groups, 32768u), rows);
+		dispatch(geometry("gi_world.list_columns", Shader::LIST_COLUMNS).read_write(VOXEL_STRETCHES, column_stretches), triangle_groups);
+		dispatch(geometry("gi_world.mark_cells", Shader::MARK_CELLS).read(VOXEL_STRETCHES, column_stretches).read_write(WORLD_OCCUPANCY, occupancy), groups);
 	}
 	r_recorder.compute("gi_world.allocate_cells", Shader::ALLOCATE_CELLS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).write(OUT_0, brick_cell_base).read_write(OUT_1, counts).constants(constants).dispatch_groups(1);
 	if (groups > 0) {
-		voxelize("gi_world.voxelize_cells", Shader::VOXELIZE_CELLS, true).read_write(OUT_0, cells).dispatch_groups(std::min(groups, 32768u), rows);
+		dispatch(voxelize("gi_world.voxelize_cells", Shader::VOXELIZE_CELLS).read_write(OUT_0, cells), groups);
 	}
 	r_recorder.compute("gi_world.allocate_records", Shader::ALLOCATE_RECORDS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base).read_write(OUT_0, counts).read_write(OUT_1, cells).read_write(OUT_2, records).constants(constants).dispatch_groups(1);
 	if (groups > 0) {
-		voxelize("gi_world.accumulate_records", Shader::ACCUMULATE_RECORDS, true).read(WORLD_CELLS, cells).read_write(OUT_0, accumulators).dispatch_groups(std::min(groups, 32768u), rows);
+		dispatch(voxelize("gi_world.accumulate_records", Shader::ACCUMULATE_RECORDS).read(WORLD_CELLS, cells).read_write(OUT_0, accumulators), groups);
 	}
 	build_sdf(r_recorder, p_cascade);
 	ComputePass resolve = r_recorder.compute("gi_world.resolve_records", Shader::RESOLVE_RECORDS);
 	bind_trace(resolve);
 	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).write(OUT_4, record_state).constants(constants).dispatch_groups(1024);
 	if (groups > 0) {
-		voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS, true).read(WORLD_RECORDS, records).read_write(OUT_0, cells).dispatch_groups(std::min(groups, 32768u), rows);
+		dispatch(voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS).read(WORLD_RECORDS, records).read_write(OUT_0, cells), groups);
 	}
 }
 

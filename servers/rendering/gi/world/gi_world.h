@@ -90,6 +90,7 @@ private:
 	OwnedBuffer emitter_count;
 	// Scratch of one cascade's build.
 	OwnedBuffer accumulators;
+	OwnedBuffer column_stretches;
 	OwnedBuffer distance_scratch[2];
 	OwnedBuffer near_bricks[2];
 	std::vector<OwnedBuffer> surfaces; // by cascade

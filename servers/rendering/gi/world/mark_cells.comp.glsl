@@ -2,7 +2,7 @@
 // Sets the occupancy bit of every cell that a triangle touches.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "servers/rendering/gi/world/voxel_triangle_inc.glsl"
+#include "servers/rendering/gi/world/visit_triangles_inc.glsl"
 
 #define MARK_CELLS_OCCUPANCY WORLD_OCCUPANCY
 

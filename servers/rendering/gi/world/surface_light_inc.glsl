@@ -70,8 +70,8 @@ vec3 free_point_before(WorldHit hit, vec3 direction) {
 	return point_m;
 }
 
-// Radiance that leaves the hit against `direction`, from the records that face the ray; black behind one-sided surfaces. Reflected
-// light is multiplied by `reflected_scale`.
+// Radiance that leaves the hit against `direction`, from the records that face the ray and that a free way leads to; black behind one-sided
+// surfaces. Reflected light is multiplied by `reflected_scale`.
 vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with_emission) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return vec3(0.0);
@@ -79,8 +79,9 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 	uint packed_records = world_cells[hit.cell].records;
 	uint faces = packed_records & 63u;
 	uint end = record_end(hit.cascade);
-	bool split = cell_is_split(faces);
-	vec3 free_m = split ? free_point_before(hit, direction) : hit.position_m;
+	// With several records, some may lie on the other side of a thin wall, or inside of solids that touch.
+	bool several = (faces & (faces - 1u)) != 0u;
+	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint index = cell_first_record(packed_records);
@@ -88,18 +89,15 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 		WorldRecord record = world_records[index];
 		vec3 normal = record_normal(record);
 		float facing = -dot(normal, direction);
-		if (facing <= 0.0) {
+		if (facing <= 0.0 || !record_has_start(record)) {
+			continue;
+		}
+		if (several && !short_way_is_free(hit.cascade, free_m, record_start_m(record))) {
 			continue;
 		}
 		float off_plane = abs(dot(hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(hit.cascade, normal);
 		float weight = facing / (0.25 + off_plane * off_plane);
-		vec4 light = vec4_from_half4(world_record_light[index].xy);
-		// A record without a start, or on the other side of a thin wall, shows black here.
-		bool reached = record_has_start(record);
-		if (reached && split) {
-			reached = short_way_is_free(hit.cascade, free_m, record_start_m(record));
-		}
-		vec3 radiance = reached ? light.rgb * color_from_unorm111110(record.albedo) * reflected_scale : vec3(0.0);
+		vec3 radiance = vec4_from_half4(world_record_light[index].xy).rgb * color_from_unorm111110(record.albedo) * reflected_scale;
 		if (with_emission) {
 			radiance += color_from_rgb9e5(record.emission);
 		}

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walks every cell of a cascade that a triangle's plane passes within its box. A work group takes 64 triangles and shares their
-// columns of cells, so that one large triangle doesn't hold up a lane. The including shader defines, before the inclusion,
-//   void visit_cell(VoxelTriangle triangle, ivec3 cell);   // cell: local, 0 .. grid_size - 1; called where the triangle touches it
-// and gets main().
+// The triangles of a cascade's surfaces in its cells' coordinates, and what boxes they touch.
 #ifndef VOXEL_TRIANGLE_INC
 #define VOXEL_TRIANGLE_INC
 #include "servers/rendering/gi/world/world_inc.glsl"
@@ -16,6 +13,7 @@
 #define VOXEL_ATTRIBUTES 15
 #define VOXEL_TEXTURES 16
 #define VOXEL_SAMPLER 17
+#define VOXEL_STRETCHES 18
 
 layout(set = 0, binding = VOXEL_SURFACES, scalar) readonly buffer SurfacesBlock {
 	GiSurface surfaces[];
@@ -131,85 +129,33 @@ VoxelTriangle load_triangle(uint triangle) {
 	return result;
 }
 
-void visit_cell(VoxelTriangle triangle, ivec3 cell);
-
-layout(local_size_x = 64) in;
-
-shared VoxelTriangle group_triangles[64];
-shared ivec3 group_low[64];
-shared ivec3 group_size[64];
-shared uint group_end[64]; // running sum of columns
-
 uint main_axis(vec3 n) {
 	vec3 a = abs(n);
 	return a.x >= a.y && a.x >= a.z ? 0u : (a.y >= a.z ? 1u : 2u);
 }
 
-void visit_column(uint slot, uint column) {
-	VoxelTriangle triangle = group_triangles[slot];
-	vec3 n = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
-	uint k = main_axis(n);
-	uint u = (k + 1u) % 3u;
-	uint v = (k + 2u) % 3u;
-	ivec3 size = group_size[slot];
-	ivec3 cell = group_low[slot];
-	cell[u] += int(column) % size[u];
-	cell[v] += int(column) / size[u];
-	// The plane's depth over the column's square.
-	float d = dot(n, triangle.v[0]);
-	float center = (d - n[u] * (float(cell[u]) + 0.5) - n[v] * (float(cell[v]) + 0.5)) / n[k];
-	float spread = (abs(n[u]) + abs(n[v])) / abs(n[k]) * (0.5 + CELL_TOUCH) + 2.0 * CELL_TOUCH;
-	int low = max(group_low[slot][k], int(floor(center - spread)));
-	int high = min(group_low[slot][k] + size[k] - 1, int(floor(center + spread)));
-	TriangleBoxTest test = make_box_test(triangle.v, 1.0, CELL_TOUCH);
-	for (int w = low; w <= high; w++) {
-		cell[k] = w;
-		if (touches_box(test, vec3(cell) - CELL_TOUCH)) {
-			visit_cell(triangle, cell);
-		}
-	}
-}
+// The columns of cells, along the main axis of its normal, over which a triangle's box within the cascade lies.
+struct TriangleColumns {
+	ivec3 low;
+	ivec3 size;
+	uint count; // 0: outside, without area, or not finite
+};
 
-void main() {
-	uint lane = gl_LocalInvocationIndex;
-	uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + lane;
-	uint columns = 0u;
-	if (index < constants.triangle_count) {
-		VoxelTriangle triangle = load_triangle(index);
-		vec3 n = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
-		vec3 low = min(triangle.v[0], min(triangle.v[1], triangle.v[2])) - CELL_TOUCH;
-		vec3 high = max(triangle.v[0], max(triangle.v[1], triangle.v[2])) + CELL_TOUCH;
-		float size = float(world.grid_size);
-		// Written so that NaN fails.
-		if (dot(n, n) > 1e-24 && all(lessThan(low, vec3(size))) && all(greaterThan(high, vec3(0.0)))) {
-			ivec3 first = ivec3(clamp(floor(low), vec3(0.0), vec3(size - 1.0)));
-			ivec3 last = ivec3(clamp(floor(high), vec3(0.0), vec3(size - 1.0)));
-			group_triangles[lane] = triangle;
-			group_low[lane] = first;
-			group_size[lane] = last - first + 1;
-			uint k = main_axis(n);
-			columns = uint(group_size[lane][(k + 1u) % 3u] * group_size[lane][(k + 2u) % 3u]);
-		}
+TriangleColumns columns_of_triangle(VoxelTriangle triangle) {
+	TriangleColumns result;
+	vec3 n = cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0]);
+	vec3 low = min(triangle.v[0], min(triangle.v[1], triangle.v[2])) - CELL_TOUCH;
+	vec3 high = max(triangle.v[0], max(triangle.v[1], triangle.v[2])) + CELL_TOUCH;
+	float size = float(world.grid_size);
+	result.count = 0u;
+	// Written so that NaN fails.
+	if (dot(n, n) > 1e-24 && all(lessThan(low, vec3(size))) && all(greaterThan(high, vec3(0.0)))) {
+		result.low = ivec3(clamp(floor(low), vec3(0.0), vec3(size - 1.0)));
+		result.size = ivec3(clamp(floor(high), vec3(0.0), vec3(size - 1.0))) - result.low + 1;
+		uint k = main_axis(n);
+		result.count = uint(result.size[(k + 1u) % 3u] * result.size[(k + 2u) % 3u]);
 	}
-	group_end[lane] = columns;
-	barrier();
-	for (uint step = 1u; step < 64u; step *= 2u) {
-		uint below = lane >= step ? group_end[lane - step] : 0u;
-		barrier();
-		group_end[lane] += below;
-		barrier();
-	}
-	uint total = group_end[63];
-	for (uint column = lane; column < total; column += 64u) {
-		uint slot = 0u;
-		for (uint half_size = 32u; half_size > 0u; half_size /= 2u) {
-			if (group_end[slot + half_size - 1u] <= column) {
-				slot += half_size;
-			}
-		}
-		uint before = slot > 0u ? group_end[slot - 1u] : 0u;
-		visit_column(slot, column - before);
-	}
+	return result;
 }
 
 #endif

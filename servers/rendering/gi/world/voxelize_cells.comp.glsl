@@ -3,6 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/material_sample_inc.glsl"
+#include "servers/rendering/gi/world/visit_triangles_inc.glsl"
 
 #define VOXELIZE_CELLS_WORDS 20
 

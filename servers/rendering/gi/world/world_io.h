@@ -34,6 +34,8 @@
 // Where a draw that samples GI finds these bindings and the probes': this much higher (transparent_inc.glsl).
 #define GI_SAMPLE_BINDING_BASE 32
 
+#define WORLD_COLUMN_STRETCH 64u
+
 #define WORLD_SDF_SCALE 16.0
 #define WORLD_SDF_RADIUS_CELLS 15
 #define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
@@ -96,6 +98,11 @@ struct ClearWordsConstants {
 	uint first;
 	uint count;
 	uint value;
+};
+// Columns of a large triangle's cells from one on, WORLD_COLUMN_STRETCH of them at most.
+struct ColumnStretch {
+	uint triangle;
+	uint first_column;
 };
 // An emissive record in the list for next-event estimation.
 struct Emitter {
