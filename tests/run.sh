@@ -8,7 +8,8 @@ usage: ./lucent test [--ci] [--device NAME] [--filter TEXT]
 
   --device NAME  run the GPU tests on this device (index or part of its name) instead of lavapipe, the CPU device of Mesa
   --filter TEXT  only cases with TEXT in their names, and none of the other checks
-  --ci           also: unit tests under the address and undefined-behaviour sanitizers (built by clang), GPU tests on SwiftShader
+  --ci           also: unit tests under the address and undefined-behaviour sanitizers (built by clang), three fuzzers for a minute
+                 each, GPU tests on SwiftShader
 
 Steps: checks of the tree, unit tests, GPU tests under validation (those of the command line among them). The last line is `N passed, N failed`.
 TEXT
@@ -94,11 +95,37 @@ lavapipe_icd() {
 	die "lavapipe is missing: install mesa-vulkan-drivers, or name a device with --device"
 }
 
+# One fuzzer, for a minute, from the committed seeds; what it finds stays in bin/fuzz. A fixed seed: the same tree gives the same verdict.
+fuzz() {
+	local name=$1 folder=$root/bin/fuzz
+	mkdir -p "$folder/$name"
+	"$root/bin/fuzz_$name" -max_total_time=60 -seed=1 -timeout=20 -rss_limit_mb=2560 -max_len=16384 -artifact_prefix="$folder/$name-" \
+		"$folder/$name" "$root/tests/data/fuzz/$name" >"$folder/$name.log" 2>&1
+}
+
+# All fuzzers, two at a time.
+run_fuzzers() {
+	local name status=0
+	rm -rf "$root/bin/fuzz"
+	fuzz gltf &
+	fuzz tscn || status=1
+	wait $! || status=1
+	fuzz image || status=1
+	for name in gltf tscn image; do
+		if ! grep '^Done' "$root/bin/fuzz/$name.log" >&2; then
+			say "fuzz_$name: the input is bin/fuzz/$name-*, the log bin/fuzz/$name.log, which ends"
+			tail -n 25 "$root/bin/fuzz/$name.log" >&2
+		fi
+	done
+	return $status
+}
+
 run_ci_steps() {
 	local program=$root/bin/lucent_tests.debug_asan_clang icd
 	say "== sanitizer build"
-	run_scons cxx=clang++ target=debug asan=1 tests=1 bin/lucent_tests.debug_asan_clang >&2 || die "the sanitizer build failed"
+	run_scons cxx=clang++ target=debug asan=1 tests=1 bin/lucent_tests.debug_asan_clang bin/fuzz_gltf bin/fuzz_tscn bin/fuzz_image >&2 || die "the sanitizer build failed"
 	suite "unit tests, sanitizers" "$program" --root "$root"
+	step "fuzzers of .glb, .tscn and images, a minute each" run_fuzzers
 	icd=$(swiftshader_icd)
 	gpu_suite "GPU tests, SwiftShader" "$root/bin/lucent_tests" "" "$icd"
 }

@@ -2,6 +2,7 @@
 #include "modules/image/image_io.h"
 
 #include "modules/image/hdr_io.h"
+#include "modules/image/jpeg_check.h"
 #include "servers/core/file_io.h"
 
 #include <climits>
@@ -30,13 +31,6 @@ namespace {
 
 bool begins_with(std::span<const std::byte> p_bytes, std::string_view p_magic) {
 	return p_bytes.size() >= p_magic.size() && std::memcmp(p_bytes.data(), p_magic.data(), p_magic.size()) == 0;
-}
-
-// The decoder fills up what is missing with grey. The last scan must be followed by an end marker; a thumbnail's come before it.
-bool is_jpeg_whole(std::span<const std::byte> p_bytes) {
-	const std::string_view text(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size());
-	const size_t scan = text.rfind("\xff\xda");
-	return scan != std::string_view::npos && text.find("\xff\xd9", scan) != std::string_view::npos;
 }
 
 Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::string &p_name, const char *p_kind) {
@@ -130,7 +124,8 @@ Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const s
 		return load_with_stb(p_bytes, p_name, "PNG");
 	}
 	if (begins_with(p_bytes, "\xff\xd8\xff")) {
-		return is_jpeg_whole(p_bytes) ? load_with_stb(p_bytes, p_name, "JPEG") : make_error("{}: truncated JPEG data (no end marker)", p_name);
+		const char *fault = find_jpeg_fault(p_bytes);
+		return fault == nullptr ? load_with_stb(p_bytes, p_name, "JPEG") : make_error("{}: broken or truncated JPEG data ({})", p_name, fault);
 	}
 	if (begins_with(p_bytes, "#?RADIANCE") || begins_with(p_bytes, "#?RGBE")) {
 		return load_hdr(p_bytes, p_name);

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -152,6 +153,17 @@ TEST_CASE("JPEG: a grey picture is decoded, a cut one is an error") {
 		const Result<Image> cut = load_image_from_memory(std::span(whole).first(size), "a.jpg");
 		CHECK_MESSAGE(!cut.ok(), "cut to " << size);
 	}
+}
+
+TEST_CASE("JPEG: a Huffman table of more than 256 codes is an error") {
+	std::vector<std::byte> file = tiny_jpeg();
+	const std::byte marker[] = { std::byte(0xFF), std::byte(0xC4) };
+	const auto table = std::search(file.begin(), file.end(), std::begin(marker), std::end(marker));
+	REQUIRE(table != file.end());
+	std::fill(table + 5, table + 21, std::byte(255));
+	const Result<Image> image = load_image_from_memory(file, "a.jpg");
+	REQUIRE(!image.ok());
+	CHECK(contains(image.error().message, "a.jpg: broken or truncated JPEG data (a Huffman table of more than 256 codes)"));
 }
 
 TEST_CASE("A broken image gives one error that names the file") {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// .png, .jpg, .hdr and .exr, the kind told by the first bytes as everywhere.
+#include "modules/image/image_io.h"
+
+#include <cstdlib>
+
+using namespace lucent;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
+	const Result<Image> image = load_image_from_memory(std::as_bytes(std::span(p_data, p_size)), "fuzz");
+	if (image) {
+		const Image &read = image.value();
+		if (read.is_empty() || read.texels.size() != size_t(read.texel_size_bytes()) * read.width * read.height) {
+			std::abort();
+		}
+	}
+	return 0;
+}
