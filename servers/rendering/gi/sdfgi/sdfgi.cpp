@@ -198,6 +198,9 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 		i.world->rebuild_cascade(r_recorder, p_scene, cascade);
 		place_probes(r_recorder, i.pass_inputs(), cascade);
 	}
+	for (const uint32_t cascade : stale) {
+		i.world->place_record_starts(r_recorder, cascade);
+	}
 	if (!stale.empty()) {
 		i.world->collect_emitters(r_recorder);
 	}

@@ -159,6 +159,15 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	}
 }
 
+// Rays may pass several cascades, so all must be built.
+void GiWorld::place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade) {
+	const shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0 };
+	ComputePass place = r_recorder.compute("gi_world.place_record_starts", Shader::PLACE_RECORD_STARTS);
+	bind_trace(place);
+	place.read(WORLD_RECORDS, records).read(OUT_0, counts).write(OUT_1, accumulators).constants(constants).dispatch_groups(1024);
+	r_recorder.compute("gi_world.move_records", Shader::MOVE_RECORDS).uniform(WORLD_PARAMS, params_buffer).read(OUT_0, counts).read(OUT_1, accumulators).read_write(OUT_2, records).constants(constants).dispatch_groups(1024);
+}
+
 void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
 	const uint32_t n = world_desc.grid_size;
 	const uint32_t bricks = n / WORLD_BRICK_CELLS;

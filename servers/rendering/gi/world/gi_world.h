@@ -33,7 +33,9 @@ public:
 	void upload_params(PassRecorder &r_recorder);
 	// Voxelises a cascade from nothing: cells, bits, records, distance field. The records' light becomes black.
 	void rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_scene, uint32_t p_cascade);
-	// The list for next-event estimation; after rebuilds.
+	// Finds the points that a cascade's records light from; after all rebuilds, since it traces rays.
+	void place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade);
+	// The list for next-event estimation; after the starts.
 	void collect_emitters(PassRecorder &r_recorder);
 	void clear_record_state(PassRecorder &r_recorder);
 	// What was written this frame becomes what is read.

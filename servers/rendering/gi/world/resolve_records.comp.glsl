@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums to means: each record's albedo, emission, normal, centroid, and the free point that its rays start from.
+// Sums to means: each record's albedo, emission, normal, centroid.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/world_lookup_inc.glsl"
@@ -30,19 +30,6 @@ layout(push_constant, scalar) uniform ResolvePush {
 	VoxelizeConstants constants;
 };
 
-// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels.
-uint find_start(uint cascade, vec3 position_m, vec3 normal) {
-	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
-	for (uint i = 3u; i < 29u; i++) {
-		if (!sub_voxel_is_solid(cascade, position_m + normal * (float(i) * step_m))) {
-			// A little further, so that the point isn't on the solid's face; still in the sub-voxel or the next one.
-			uint further = i + 1u;
-			return sub_voxel_is_solid(cascade, position_m + normal * (float(further) * step_m)) ? i : further;
-		}
-	}
-	return 0u;
-}
-
 void main() {
 	GiCascade cascade = world.cascades[constants.cascade];
 	uint count = min(counts[constants.cascade].records, world.record_capacity);
@@ -70,7 +57,6 @@ void main() {
 		record.normal = packSnorm2x16(octahedral_from_direction(normal));
 		record.albedo = unorm111110_from_color(vec3(sums.albedo) / max(float(sums.area), 1.0));
 		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area * coverage);
-		record.position |= find_start(constants.cascade, record_position_m(record), record_normal(record)) << 27;
 		records[index] = record;
 		record_light[index] = uvec4(0u);
 		for (uint k = 0u; k < 4u; k++) {

@@ -10,7 +10,8 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly bu
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY)) uniform texture2D world_sky;
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler world_sky_sampler;
 
-// Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up.
+// Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up. As for rays, the
+// solid sub-voxels of a flat cell only count where the way crosses a surface.
 bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	vec3 scale = float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
 	vec3 a = from_m * scale;
@@ -20,22 +21,34 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	ivec3 s = ivec3(floor(a));
 	ivec3 direction = ivec3(sign(way));
 	vec3 t_next = (vec3(s) + step(vec3(0.0), way) - a) * inverse;
-	ivec3 cell = ivec3(0x7FFFFFFF);
-	uvec2 bits = uvec2(0u);
+	ivec3 cell_at = ivec3(0x7FFFFFFF);
+	WorldCell cell = WorldCell(uvec2(0u), 0u);
+	float t = 0.0;
 	for (uint i = 0u; i < 48u; i++) {
 		ivec3 now = s >> 2;
-		if (now != cell) {
-			cell = now;
-			uint index = find_cell(cascade, storage_from_world_cell(cell));
-			bits = index == WORLD_NO_CELL ? uvec2(0u) : (index == WORLD_LOST_CELL ? uvec2(0xFFFFFFFFu) : world_cells[index].bits);
+		if (now != cell_at) {
+			cell_at = now;
+			uint index = find_cell(cascade, storage_from_world_cell(now));
+			if (index == WORLD_LOST_CELL) {
+				return false;
+			}
+			cell.bits = uvec2(0u);
+			if (index != WORLD_NO_CELL) {
+				cell = world_cells[index];
+			}
 		}
+		float t_leave = min(t_next.x, min(t_next.y, t_next.z));
 		uvec3 local = uvec3(s) & 3u;
-		if (bit_is_set(bits, local.x + 4u * local.y + 16u * local.z)) {
-			return false;
+		if (bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
+			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
+			if (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(now), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(now))) {
+				return false;
+			}
 		}
-		if (min(t_next.x, min(t_next.y, t_next.z)) >= 1.0) {
+		if (t_leave >= 1.0) {
 			return true;
 		}
+		t = t_leave;
 		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
 			t_next.x += abs(inverse.x);
 			s.x += direction.x;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Finds the free point that a record's rays start from, and with it the place in the record's plane that stands for the record.
+//
+// A cell's part of a surface may be hidden in places: a floor goes on under a box, a wall behind the one that it meets. Where a cell has
+// several records, the centroid is taken only if rays from its start see fronts of surfaces; else the sub-voxel column that
+// sees the fewest backs.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/world/trace_world_inc.glsl"
+#include "servers/rendering/shaders/sampling_inc.glsl"
+
+#define PLACE_STARTS_COUNTS 20
+#define PLACE_STARTS_OUT 21
+
+#define TEST_RAYS 4u
+#define TEST_REACH_CELLS 16.0
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = PLACE_STARTS_COUNTS, scalar) readonly buffer CountsBlock {
+	CascadeCounts counts[];
+};
+layout(set = 0, binding = PLACE_STARTS_OUT, scalar) writeonly buffer PositionsBlock {
+	uint new_positions[]; // WorldRecord.position, from the cascade's first record
+};
+layout(push_constant, scalar) uniform PlacePush {
+	VoxelizeConstants constants;
+};
+
+// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels.
+uint find_start(uint cascade, vec3 position_m, vec3 normal) {
+	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
+	for (uint i = 3u; i < 29u; i++) {
+		if (!sub_voxel_is_solid(cascade, position_m + normal * (float(i) * step_m))) {
+			// A little further, so that the point isn't on the solid's face; still in the sub-voxel or the next one.
+			uint further = i + 1u;
+			return sub_voxel_is_solid(cascade, position_m + normal * (float(further) * step_m)) ? i : further;
+		}
+	}
+	return 0u;
+}
+
+// How many of the test rays from the start end at the back of a surface.
+uint backs_seen(uint cascade, WorldRecord record) {
+	vec3 normal = record_normal(record);
+	vec3 start_m = record_start_m(record);
+	uint backs = 0u;
+	for (uint i = 0u; i < TEST_RAYS; i++) {
+		vec3 direction = cosine_direction(r2_point(i, 0u), normal);
+		WorldHit hit = trace_world(start_m, direction, TEST_REACH_CELLS * world.cascades[cascade].cell_m.x, cascade);
+		if (!hit.hit || hit.cell >= WORLD_LOST_CELL) {
+			continue;
+		}
+		uint packed_records = world_cells[hit.cell].records;
+		uint index = cell_first_record(packed_records);
+		uint end = record_end(hit.cascade);
+		bool front = false;
+		for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
+			front = front || dot(record_normal(world_records[index]), direction) < 0.0;
+		}
+		backs += front ? 0u : 1u;
+	}
+	return backs;
+}
+
+// The record's place moved within its plane to the middle of a sub-voxel column; false: the plane leaves the cell there.
+bool move_to_column(inout WorldRecord record, uint column) {
+	uint axis = record_face(record) >> 1;
+	uint a = (axis + 1u) % 3u;
+	uint b = (axis + 2u) % 3u;
+	vec3 normal = record_normal(record) * world.cascades[record_cascade(record)].cell_m;
+	vec3 center = record_position_in_cell(record);
+	vec3 moved = center;
+	moved[a] = (float(column & 3u) + 0.5) / 4.0;
+	moved[b] = (float(column >> 2) + 0.5) / 4.0;
+	moved[axis] -= ((moved[a] - center[a]) * normal[a] + (moved[b] - center[b]) * normal[b]) / normal[axis];
+	if (moved[axis] < 0.0 || moved[axis] > 1.0) {
+		return false;
+	}
+	uvec3 p = uvec3(moved * 511.0 + 0.5);
+	record.position = p.x | (p.y << 9) | (p.z << 18);
+	return true;
+}
+
+uint placed(uint cascade, WorldRecord record) {
+	vec3 normal = record_normal(record);
+	uint best = record.position | (find_start(cascade, record_position_m(record), normal) << 27);
+	WorldCell cell = world_cells[find_cell(cascade, storage_from_world_cell(record_world_cell(record)))];
+	uint faces = cell.records & 63u;
+	if ((faces & (faces - 1u)) == 0u) {
+		return best;
+	}
+	WorldRecord at = record;
+	at.position = best;
+	uint fewest = record_has_start(at) ? backs_seen(cascade, at) : TEST_RAYS + 1u;
+	uint columns = columns_of_bits(cell.bits, record_face(record) >> 1);
+	for (uint k = 0u; k < 16u && fewest > 0u; k++) {
+		uint column = (k * 7u) & 15u;
+		at = record;
+		if (((columns >> column) & 1u) == 0u || !move_to_column(at, column)) {
+			continue;
+		}
+		uint start = find_start(cascade, record_position_m(at), normal);
+		at.position |= start << 27;
+		uint backs = start != 0u ? backs_seen(cascade, at) : TEST_RAYS + 1u;
+		if (backs < fewest) {
+			fewest = backs;
+			best = at.position;
+		}
+	}
+	return best;
+}
+
+void main() {
+	uint count = min(counts[constants.cascade].records, world.record_capacity);
+	uint stride = gl_NumWorkGroups.x * 64u;
+	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
+		new_positions[i] = placed(constants.cascade, world_records[record_base(constants.cascade) + i]);
+	}
+}
