@@ -181,10 +181,10 @@ LaneLight light_of_lane(WorldRecord record, uint lane) {
 		light.rays++;
 		vec3 from_m = ray_start_m(origin, ray.direction);
 		float skipped_m = dot(from_m - origin.surface_m, ray.direction);
-		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m - skipped_m, cascade);
-		hit.t_m += skipped_m;
+		ray.t_max_m -= skipped_m;
+		WorldHit hit = trace_world(from_m, ray.direction, ray.t_max_m, cascade);
 		if (k == 0u) {
-			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, emitter_count == 0u || hit.t_m < near_emitters_m()) : world_sky_radiance(ray.direction));
+			light.indirect += ray.light * (hit.hit ? hit_radiance(hit, ray.direction, constants.feedback, emitter_count == 0u || hit.t_m + skipped_m < near_emitters_m()) : world_sky_radiance(ray.direction));
 		} else if (k == 1u) {
 			light.indirect += !hit.hit || hit_is_emitter(hit, target, ray) ? ray.light : vec3(0.0);
 		} else {

@@ -155,7 +155,7 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	bind_trace(resolve);
 	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).write(OUT_4, record_state).constants(constants).dispatch_groups(1024);
 	if (groups > 0) {
-		dispatch(voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS).read(WORLD_RECORDS, records).read_write(OUT_0, cells), groups);
+		dispatch(voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS).read_write(WORLD_RECORDS, records).read_write(OUT_0, cells), groups);
 	}
 }
 

@@ -54,7 +54,8 @@ void main() {
 		float coverage = abs(area_vector[axis]) / seen;
 		uvec3 p = uvec3(clamp(center, 0.0, 1.0) * 511.0 + 0.5);
 		record.position = p.x | (p.y << 9) | (p.z << 18);
-		record.normal = packSnorm2x16(octahedral_from_direction(normal));
+		uvec2 n = uvec2(ivec2(round(clamp(octahedral_from_direction(normal), -1.0, 1.0) * 4095.0))) & 0x1FFFu;
+		record.normal = n.x | (n.y << 13);
 		record.albedo = unorm111110_from_color(vec3(sums.albedo) / max(float(sums.area), 1.0));
 		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area * coverage);
 		records[index] = record;

@@ -73,14 +73,14 @@ vec3 world_sky_radiance(vec3 direction) {
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }
 
-// The last free point of the ray before a hit: hits in flat cells may lie under solid sub-voxels.
+// The last free point of the ray before a hit: hits in flat cells may lie under solid sub-voxels. At most back to the ray's start.
 vec3 free_point_before(WorldHit hit, vec3 direction) {
 	float step_m = 0.5 * sub_voxel_along_m(hit.cascade, direction);
-	vec3 point_m = hit.position_m - 0.5 * step_m * direction;
-	for (uint i = 0u; i < 12u && sub_voxel_is_solid(hit.cascade, point_m); i++) {
-		point_m -= step_m * direction;
+	float back_m = min(0.5 * step_m, hit.t_m);
+	for (uint i = 0u; i < 12u && back_m < hit.t_m && sub_voxel_is_solid(hit.cascade, hit.position_m - back_m * direction); i++) {
+		back_m = min(back_m + step_m, hit.t_m);
 	}
-	return point_m;
+	return hit.position_m - back_m * direction;
 }
 
 // Radiance that leaves the hit against `direction`, from the records that face the ray and that a free way leads to; black behind one-sided

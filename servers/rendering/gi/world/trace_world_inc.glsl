@@ -41,21 +41,38 @@ uint finest_cascade(vec3 position_m) {
 	return world.cascade_count;
 }
 
+// Is a point (cell-local, in cells) beyond the edge at which a record's surface ends: in front of another record's plane, where the
+// surface does not go on?
+bool is_beyond_edge(uint cascade, uint packed_records, WorldRecord record, vec3 point, float tolerance_m) {
+	uint faces = packed_records & 63u;
+	uint others = faces & ~(1u << record_face(record)) & ~record_spill(record);
+	for (; others != 0u; others &= others - 1u) {
+		uint face = uint(findLSB(others));
+		WorldRecord other = world_records[cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)))];
+		if (dot((point - record_position_in_cell(other)) * world.cascades[cascade].cell_m, record_normal(other)) > tolerance_m) {
+			return true;
+		}
+	}
+	return false;
+}
+
 // Does the stretch from `a` to `b` (cell-local, in cells) cross a surface of a flat cell?
 bool crosses_surface(uint cascade, uint packed_records, vec3 a, vec3 b) {
 	vec3 cell_m = world.cascades[cascade].cell_m;
+	float tolerance_m = 2.0 * WORLD_FLAT_SUB_VOXELS * cell_m.y / float(WORLD_SUB_VOXELS);
 	bool behind_all = true;
 	uint index = cell_first_record(packed_records);
 	for (uint faces = packed_records & 63u; faces != 0u; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
 		vec3 normal = record_normal(record) * cell_m;
-		// Signed distances in metres, then against the tolerance of a flat cell.
 		vec3 center = record_position_in_cell(record);
 		float at_a = dot(a - center, normal);
 		float at_b = dot(b - center, normal);
-		float tolerance = 2.0 * WORLD_FLAT_SUB_VOXELS * cell_m.y / float(WORLD_SUB_VOXELS);
-		if (min(at_a, at_b) <= tolerance && max(at_a, at_b) >= -tolerance) {
-			return true;
+		if (min(at_a, at_b) <= tolerance_m && max(at_a, at_b) >= -tolerance_m) {
+			float share = abs(at_a - at_b) > 1e-9 ? clamp(at_a / (at_a - at_b), 0.0, 1.0) : 0.5;
+			if (!is_beyond_edge(cascade, packed_records, record, mix(a, b, share), tolerance_m)) {
+				return true;
+			}
 		}
 		behind_all = behind_all && at_a < 0.0;
 	}

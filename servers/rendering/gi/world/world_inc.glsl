@@ -104,12 +104,18 @@ vec3 record_position_m(WorldRecord record) {
 	return (vec3(record_world_cell(record)) + record_position_in_cell(record)) * world.cascades[record_cascade(record)].cell_m;
 }
 vec3 record_normal(WorldRecord record) {
-	return direction_from_octahedral(unpackSnorm2x16(record.normal));
+	// Sign-extended by the shifts.
+	ivec2 p = ivec2(int(record.normal << 19) >> 19, int(record.normal << 6) >> 19);
+	return direction_from_octahedral(vec2(p) / 4095.0);
 }
 // The step in metres along a direction that certainly leaves a sub-voxel through a face of the direction's main axis.
 float sub_voxel_along_m(uint cascade, vec3 direction) {
 	vec3 rate = abs(direction) * float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
 	return 1.0 / max(rate.x, max(rate.y, rate.z));
+}
+// Faces in front of whose records the record's surface goes on, within a flat cell.
+uint record_spill(WorldRecord record) {
+	return record.normal >> 26;
 }
 bool record_has_start(WorldRecord record) {
 	return (record.position >> 27) != 0u;

@@ -66,7 +66,7 @@ struct WorldCell {
 };
 struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
-	uint normal; // octahedral, 16 bits each
+	uint normal; // octahedral, 13 bits each; then a bit a face: in a flat cell, the record's surface goes on in front of that face's record
 	uint albedo; // 11:11:10 unorm
 	uint emission; // RGB9E5, mean over the area that rays see
 	uint cell; // cascade << 27 | face << 24 | storage coordinates z << 16 | y << 8 | x
