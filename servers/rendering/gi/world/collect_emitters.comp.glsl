@@ -10,15 +10,6 @@
 #define COLLECT_EMITTERS_COUNT 22
 
 layout(local_size_x = 256) in;
-layout(set = 0, binding = WORLD_CELLS, scalar) readonly buffer CellsBlock {
-	WorldCell cells[];
-};
-layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
-	uvec2 occupancy[];
-};
-layout(set = 0, binding = WORLD_BRICK_CELL_BASE, scalar) readonly buffer BrickCellBaseBlock {
-	uint brick_cell_base[];
-};
 layout(set = 0, binding = WORLD_RECORDS, scalar) readonly buffer RecordsBlock {
 	WorldRecord records[];
 };
@@ -33,23 +24,11 @@ layout(set = 0, binding = COLLECT_EMITTERS_COUNT, scalar) writeonly buffer Emitt
 	uint emitters_wanted;
 };
 
-// The area of the cell's face, seen along the record's normal, that holds set bits.
-float seen_area_m2(WorldRecord record) {
-	uint axis = record_face(record) >> 1;
-	uvec3 storage = storage_from_world_cell(record_world_cell(record));
-	uint brick = brick_of_cell(record_cascade(record), storage);
-	uvec2 bits = cells[brick_cell_base[brick] + bits_below(occupancy[brick], bit_of_cell(storage))].bits;
-	uint mask = columns_of_bits(bits, axis);
-	vec3 size = world.cascades[record_cascade(record)].cell_m;
-	float face_m2 = size[(axis + 1u) % 3u] * size[(axis + 2u) % 3u];
-	return face_m2 * float(bitCount(mask)) / 16.0 / max(abs(record_normal(record)[axis]), 0.2);
-}
-
 float emitter_power(WorldRecord record) {
 	if (record.emission == 0u || !record_has_start(record) || cell_in_finer(record_cascade(record), record_world_cell(record), 0)) {
 		return 0.0;
 	}
-	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * seen_area_m2(record);
+	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * record.area_m2;
 }
 
 shared float group_power[256];
@@ -90,7 +69,7 @@ void main() {
 					power += record_power;
 				} else if (slot < uint(emitters.length())) {
 					running += record_power;
-					emitters[slot] = Emitter(index, running / total, record_power / total, seen_area_m2(records[index]));
+					emitters[slot] = Emitter(index, running / total, record_power / total);
 					slot++;
 				}
 			}

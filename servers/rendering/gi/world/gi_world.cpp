@@ -184,9 +184,6 @@ void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
 void GiWorld::collect_emitters(PassRecorder &r_recorder) {
 	r_recorder.compute("gi_world.collect_emitters", Shader::COLLECT_EMITTERS)
 			.uniform(WORLD_PARAMS, params_buffer)
-			.read(WORLD_OCCUPANCY, occupancy)
-			.read(WORLD_BRICK_CELL_BASE, brick_cell_base)
-			.read(WORLD_CELLS, cells)
 			.read(WORLD_RECORDS, records)
 			.read(OUT_0, counts)
 			.read_write(OUT_1, emitters)

@@ -16,7 +16,7 @@ layout(set = 0, binding = WORLD_BRICK_CELL_BASE, scalar) readonly buffer BrickCe
 	uint brick_cell_base[];
 };
 layout(set = 0, binding = WORLD_RECORDS, scalar) buffer RecordWordsBlock {
-	uint record_words[]; // WorldRecord as five words
+	uint record_words[]; // WorldRecord as six words
 };
 layout(set = 0, binding = MARK_FLAT_CELLS_WORDS, scalar) buffer CellWordsBlock {
 	uint cell_words[]; // WorldCell as three words
@@ -25,8 +25,8 @@ layout(set = 0, binding = MARK_FLAT_CELLS_WORDS, scalar) buffer CellWordsBlock {
 // A record's plane: unit normal times cell size, so that distances of cell-local points from `center` are in metres.
 void record_plane(uint index, out vec3 normal, out vec3 center) {
 	WorldRecord record;
-	record.position = record_words[index * 5u];
-	record.normal = record_words[index * 5u + 1u];
+	record.position = record_words[index * 6u];
+	record.normal = record_words[index * 6u + 1u];
 	normal = record_normal(record) * world.cascades[constants.cascade].cell_m;
 	center = record_position_in_cell(record);
 }
@@ -63,11 +63,11 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 			}
 		}
 		if (spill != 0u) {
-			atomicOr(record_words[record_index * 5u + 1u], spill << 26);
+			atomicOr(record_words[record_index * 6u + 1u], spill << 26);
 			uint back = face ^ 1u;
 			uint back_index = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << back) - 1u)));
 			if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u && (faces & (1u << back)) != 0u && back_index < record_end(constants.cascade)) {
-				atomicOr(record_words[back_index * 5u + 1u], spill << 26);
+				atomicOr(record_words[back_index * 6u + 1u], spill << 26);
 			}
 		}
 	}

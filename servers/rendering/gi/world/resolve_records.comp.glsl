@@ -47,17 +47,13 @@ void main() {
 			normal[axis] = (record_face(record) & 1u) == 0u ? 1.0 : -1.0;
 		}
 		vec3 center = vec3(sums.position) / max(float(sums.area), 1.0);
-		ivec3 cell = record_world_cell(record);
-		uvec2 bits = world_cells[find_cell(constants.cascade, storage_from_world_cell(cell))].bits;
-		// What of the cell's face a ray sees, of 16 columns. Rays see whole sub-voxels: spread the emission over what they see, so that the flux stays.
-		float seen = float(max(bitCount(columns_of_bits(bits, axis)), 1)) / 16.0;
-		float coverage = abs(area_vector[axis]) / seen;
 		uvec3 p = uvec3(clamp(center, 0.0, 1.0) * 511.0 + 0.5);
 		record.position = p.x | (p.y << 9) | (p.z << 18);
 		uvec2 n = uvec2(ivec2(round(clamp(octahedral_from_direction(normal), -1.0, 1.0) * 4095.0))) & 0x1FFFu;
 		record.normal = n.x | (n.y << 13);
 		record.albedo = unorm111110_from_color(vec3(sums.albedo) / max(float(sums.area), 1.0));
-		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area * coverage);
+		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area);
+		record.area_m2 = cascade.cell_m.x * cascade.cell_m.y * cascade.cell_m.z * length(area_vector / cascade.cell_m);
 		records[index] = record;
 		record_light[index] = uvec4(0u);
 		for (uint k = 0u; k < 4u; k++) {

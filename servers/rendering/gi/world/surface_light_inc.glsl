@@ -83,21 +83,35 @@ vec3 free_point_before(WorldHit hit, vec3 direction) {
 	return hit.position_m - back_m * direction;
 }
 
+// Emission that rays see of a record. They see whole sub-voxels of cells that are not flat: there it is spread over what they see, so that
+// the flux stays.
+vec3 visible_emission(WorldRecord record, WorldCell cell) {
+	vec3 emission = color_from_rgb9e5(record.emission);
+	if (record.emission == 0u || (cell.records & WORLD_CELL_FLAT) != 0u) {
+		return emission;
+	}
+	uint axis = record_face(record) >> 1;
+	vec3 size = world.cascades[record_cascade(record)].cell_m;
+	float column_m2 = size[(axis + 1u) % 3u] * size[(axis + 2u) % 3u] / 16.0;
+	float seen_m2 = column_m2 * float(max(bitCount(columns_of_bits(cell.bits, axis)), 1));
+	return emission * (record.area_m2 * abs(record_normal(record)[axis]) / seen_m2);
+}
+
 // Radiance that leaves the hit against `direction`, from the records that face the ray and that a free way leads to; black behind one-sided
 // surfaces. Reflected light is multiplied by `reflected_scale`.
 vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with_emission) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return vec3(0.0);
 	}
-	uint packed_records = world_cells[hit.cell].records;
-	uint faces = packed_records & 63u;
+	WorldCell cell = world_cells[hit.cell];
+	uint faces = cell.records & 63u;
 	uint end = record_end(hit.cascade);
 	// With several records, some may lie on the other side of a thin wall, or inside of solids that touch.
 	bool several = (faces & (faces - 1u)) != 0u;
 	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
-	uint index = cell_first_record(packed_records);
+	uint index = cell_first_record(cell.records);
 	for (; faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
 		vec3 normal = record_normal(record);
@@ -112,7 +126,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with
 		float weight = facing / (0.25 + off_plane * off_plane);
 		vec3 radiance = vec4_from_half4(world_record_light[index].xy).rgb * color_from_unorm111110(record.albedo) * reflected_scale;
 		if (with_emission) {
-			radiance += color_from_rgb9e5(record.emission);
+			radiance += visible_emission(record, cell);
 		}
 		sum += weight * radiance;
 		weight_sum += weight;

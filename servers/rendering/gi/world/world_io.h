@@ -68,8 +68,9 @@ struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
 	uint normal; // octahedral, 13 bits each; then a bit a face: in a flat cell, the record's surface goes on in front of that face's record
 	uint albedo; // 11:11:10 unorm
-	uint emission; // RGB9E5, mean over the area that rays see
+	uint emission; // RGB9E5, mean over the surface
 	uint cell; // cascade << 27 | face << 24 | storage coordinates z << 16 | y << 8 | x
+	float area_m2; // of the surface, seen along its normal
 };
 // Per-record sums while a cascade is voxelised. Integers, so that the order of triangles doesn't matter.
 struct RecordAccumulator {
@@ -109,12 +110,11 @@ struct Emitter {
 	uint record;
 	float cdf; // running share of the power, this one included; 1 at the end
 	float share; // of the total power
-	float area_m2; // that rays see
 };
 INTEROP_END
 INTEROP_SIZE(GiCascade, 24)
 INTEROP_SIZE(GiWorldParams, 216)
 INTEROP_SIZE(WorldCell, 12)
-INTEROP_SIZE(WorldRecord, 20)
+INTEROP_SIZE(WorldRecord, 24)
 INTEROP_SIZE(RecordAccumulator, 52)
 #endif
