@@ -76,7 +76,33 @@ void GiTestScene::set_sky(const Vector3 &p_above, const Vector3 &p_below) {
 	sky_below = p_below;
 }
 
-GiSceneView GiTestScene::upload() {
+// Triangles of each surface.
+std::vector<std::vector<size_t>> GiTestScene::surfaces(const GiTestOrder &p_order) const {
+	std::vector<std::vector<size_t>> result;
+	for (uint32_t material = 0; material < materials.size(); material++) {
+		std::vector<size_t> triangles;
+		for (size_t t = 0; t < triangle_materials.size(); t++) {
+			if (triangle_materials[t] == material) {
+				triangles.push_back(t);
+			}
+		}
+		if (p_order.reversed) {
+			std::reverse(triangles.begin(), triangles.end());
+		}
+		const auto middle = triangles.begin() + ptrdiff_t(p_order.split ? triangles.size() / 2 : 0);
+		for (const std::vector<size_t> &part : { std::vector<size_t>(triangles.begin(), middle), std::vector<size_t>(middle, triangles.end()) }) {
+			if (!part.empty()) {
+				result.push_back(part);
+			}
+		}
+	}
+	if (p_order.reversed) {
+		std::reverse(result.begin(), result.end());
+	}
+	return result;
+}
+
+GiSceneView GiTestScene::upload(const GiTestOrder &p_order) {
 	std::vector<uint32_t> index_list;
 	std::vector<Vector3> sorted;
 	GiSceneView view;
@@ -84,25 +110,18 @@ GiSceneView GiTestScene::upload() {
 	for (int i = 0; i < 3; i++) {
 		instance.world_from_local[i][i] = 1.0f;
 	}
-	// One surface a material.
-	for (uint32_t material = 0; material < materials.size(); material++) {
-		shader::GiSurface surface{ .first_triangle = view.gi_triangle_count, .first_index = uint32_t(index_list.size()), .vertex_offset = 0, .instance = 0, .material = material };
+	for (const std::vector<size_t> &triangles : surfaces(p_order)) {
+		view.gi_surfaces.push_back({ .first_triangle = view.gi_triangle_count, .first_index = uint32_t(index_list.size()), .vertex_offset = 0, .instance = 0, .material = triangle_materials[triangles[0]] });
 		AABB box;
-		for (size_t t = 0; t < triangle_materials.size(); t++) {
-			if (triangle_materials[t] != material) {
-				continue;
-			}
+		for (const size_t t : triangles) {
 			for (size_t i = 0; i < 3; i++) {
 				index_list.push_back(uint32_t(sorted.size()));
 				sorted.push_back(corners[t * 3 + i]);
 				box.expand_to(sorted.back());
 			}
-			view.gi_triangle_count++;
 		}
-		if (view.gi_triangle_count > surface.first_triangle) {
-			view.gi_surfaces.push_back(surface);
-			view.gi_surface_boxes.push_back(box);
-		}
+		view.gi_triangle_count += uint32_t(triangles.size());
+		view.gi_surface_boxes.push_back(box);
 	}
 	positions = upload_vector(device, sorted, "test.positions");
 	attributes = upload_vector(device, std::vector<shader::VertexAttributes>(sorted.size() + 1), "test.attributes");

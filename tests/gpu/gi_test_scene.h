@@ -10,6 +10,11 @@
 
 namespace lucent {
 
+struct GiTestOrder {
+	bool reversed = false; // the last material and its last triangle come first
+	bool split = false; // two surfaces a material
+};
+
 class GiTestScene {
 public:
 	explicit GiTestScene(RenderingDevice &p_device) :
@@ -23,11 +28,13 @@ public:
 	void add_light(const shader::LightData &p_light) { lights.push_back(p_light); }
 	void set_sky(const Vector3 &p_above, const Vector3 &p_below);
 
-	// Sends all to the device. Call outside of a frame.
-	GiSceneView upload();
+	// Sends all to the device: a surface a material. Call outside of a frame. Other orders hold the same triangles.
+	GiSceneView upload(const GiTestOrder &p_order = {});
 	const std::vector<Vector3> &triangle_corners() const { return corners; }
 
 private:
+	std::vector<std::vector<size_t>> surfaces(const GiTestOrder &p_order) const;
+
 	RenderingDevice &device;
 	std::vector<Vector3> corners; // three a triangle
 	std::vector<uint32_t> triangle_materials;

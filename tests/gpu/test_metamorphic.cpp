@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// What must not change when the scene is told differently, and what must change in proportion: true on any driver.
+#include "tests/gpu/gi_test_scene.h"
+#include "tests/gpu/gpu_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+using namespace lucent;
+using lucent::test::GpuFixture;
+
+namespace {
+
+struct Telling {
+	int turn = 0; // axes: x y z become y z x so many times
+	float emission = 1.0f;
+	bool panel = true;
+	bool lamps[2] = { false, false };
+	GiTestOrder order;
+};
+
+SdfgiSettings metamorphic_settings() {
+	SdfgiSettings settings;
+	settings.enabled = true;
+	settings.cascades = 2;
+	settings.grid_size_cells = 64;
+	settings.min_cell_size_m = 0.25f; // all sizes are exact
+	settings.y_scale = SdfgiYScale::SCALE_100_PERCENT;
+	settings.frames_to_converge = 4;
+	return settings;
+}
+
+// All sets of rays but the full ones, and two of those: what holds for settled light holds on the way.
+constexpr uint32_t FRAMES = 20;
+
+struct Place {
+	const Telling &telling;
+	Vector3 direction(Vector3 p_vector) const {
+		for (int i = 0; i < telling.turn; i++) {
+			p_vector = Vector3(p_vector.z, p_vector.x, p_vector.y);
+		}
+		return p_vector;
+	}
+};
+
+// A room of 5 x 3 x 4 m with an opening to the sky, a pillar, a red wall panel and a lamp panel below the ceiling.
+GiSceneView build(GiTestScene &r_scene, const Telling &p_telling) {
+	const Place place = { p_telling };
+	const auto box = [&](const Vector3 &p_min, const Vector3 &p_max, uint32_t p_material) {
+		const Vector3 a = place.direction(p_min), b = place.direction(p_max);
+		r_scene.add_box(glm::min(a, b), glm::max(a, b), p_material);
+	};
+	const uint32_t white = r_scene.add_material(Vector3(0.75f));
+	const uint32_t red = r_scene.add_material(Vector3(0.75f, 0.25f, 0.125f));
+	const uint32_t lamp = r_scene.add_material(Vector3(0.5f), Vector3(16.0f, 12.0f, 8.0f) * (p_telling.panel ? p_telling.emission : 0.0f));
+	const float t = 0.25f;
+	box({ -2.5f - t, -1.5f - t, -2.0f - t }, { 2.5f + t, -1.5f, 2.0f + t }, white);
+	box({ -2.5f - t, 1.5f, -2.0f - t }, { 2.5f + t, 1.5f + t, 2.0f + t }, white);
+	box({ -2.5f - t, -1.5f, -2.0f }, { -2.5f, 1.5f, 2.0f }, red);
+	box({ 2.5f, -1.5f, -2.0f }, { 2.5f + t, 1.5f, 1.0f }, white);
+	box({ -2.5f - t, -1.5f, -2.0f - t }, { 2.5f + t, 1.5f, -2.0f }, white);
+	box({ -2.5f - t, -1.5f, 2.0f }, { 2.5f + t, 1.5f, 2.0f + t }, white);
+	box({ -0.5f, -1.5f, -0.75f }, { 0.0f, 0.5f, -0.25f }, white);
+	box({ -1.5f, 1.25f, 0.25f }, { -0.5f, 1.375f, 1.25f }, lamp);
+	for (int i = 0; i < 2; i++) {
+		shader::LightData light{};
+		light.position = place.direction(i == 0 ? Vector3(1.5f, 0.5f, 0.5f) : Vector3(-1.5f, -0.5f, -1.0f));
+		light.range = 8.0f;
+		light.attenuation = 2.0f;
+		light.color = (i == 0 ? Vector3(1.0f, 0.75f, 0.5f) : Vector3(0.5f, 1.0f, 0.75f)) * p_telling.emission;
+		light.indirect_energy = 1.0f;
+		light.type = LIGHT_TYPE_OMNI;
+		light.flags = LIGHT_FLAG_GI;
+		light.shadow_index = -1;
+		if (p_telling.lamps[i]) {
+			r_scene.add_light(light);
+		}
+	}
+	if (p_telling.panel) {
+		r_scene.set_sky(Vector3(0.5f, 0.75f, 1.0f) * p_telling.emission, Vector3(0.5f, 0.75f, 1.0f) * p_telling.emission);
+	}
+	return r_scene.upload(p_telling.order);
+}
+
+// What points on floor, ceiling, walls and pillar get.
+std::vector<Vector3> light_of(RenderingDevice &p_device, const Telling &p_telling) {
+	GiTestScene scene(p_device);
+	Sdfgi sdfgi(p_device);
+	const GiSceneView view = build(scene, p_telling);
+	const Place place = { p_telling };
+	run_sdfgi(p_device, sdfgi, metamorphic_settings(), view, place.direction(Vector3(0.25f, 0.125f, 0.375f)), FRAMES);
+	std::vector<Vector3> points, normals;
+	for (float a = -1.8125f; a < 2.0f; a += 0.5f) {
+		points.insert(points.end(), { { a, -1.5f, 0.6875f }, { a, 1.5f, -0.4375f }, { a, 0.1875f, -2.0f }, { -2.5f, a * 0.75f, 0.4375f }, { 2.5f, a * 0.75f, -0.5625f } });
+		normals.insert(normals.end(), { { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { -1, 0, 0 } });
+	}
+	points.insert(points.end(), { { -0.25f, 0.5f, -0.5f }, { 0.0f, -0.5f, -0.5f } });
+	normals.insert(normals.end(), { { 0, 1, 0 }, { 1, 0, 0 } });
+	for (size_t i = 0; i < points.size(); i++) {
+		points[i] = place.direction(points[i]);
+		normals[i] = place.direction(normals[i]);
+	}
+	return gather_at(p_device, sdfgi, points, normals);
+}
+
+struct Difference {
+	size_t other_bits = 0; // values that differ at all
+	double largest = 0.0; // |a - b|, over the mean of a
+	double mean = 0.0; // mean of b over the mean of a, minus 1
+};
+
+Difference difference(const std::vector<Vector3> &p_a, const std::vector<Vector3> &p_b) {
+	Difference result;
+	double sum_a = 0.0, sum_b = 0.0, largest = 0.0;
+	for (size_t i = 0; i < p_a.size(); i++) {
+		for (int k = 0; k < 3; k++) {
+			result.other_bits += std::memcmp(&p_a[i][k], &p_b[i][k], 4) != 0 ? 1 : 0;
+			largest = std::max(largest, double(std::abs(p_a[i][k] - p_b[i][k])));
+			sum_a += p_a[i][k];
+			sum_b += p_b[i][k];
+		}
+	}
+	result.largest = largest / (sum_a / double(3 * p_a.size()));
+	result.mean = sum_b / sum_a - 1.0;
+	MESSAGE("of " << 3 * p_a.size() << " values differ " << result.other_bits << ", largest " << result.largest << " of the mean, means by " << result.mean);
+	return result;
+}
+
+} // namespace
+
+TEST_SUITE_BEGIN("gpu");
+
+TEST_CASE("metamorphic: order of triangles and surfaces, meshes split in two: the same bits") {
+	GpuFixture fixture;
+	Telling telling;
+	telling.lamps[0] = true;
+	const std::vector<Vector3> before = light_of(fixture.device(), telling);
+	CHECK(difference(before, light_of(fixture.device(), telling)).other_bits == 0);
+	telling.order = { .reversed = true, .split = false };
+	CHECK(difference(before, light_of(fixture.device(), telling)).other_bits == 0);
+	telling.order = { .reversed = false, .split = true };
+	CHECK(difference(before, light_of(fixture.device(), telling)).other_bits == 0);
+}
+
+TEST_CASE("metamorphic: axes swapped at y scale 100 %") {
+	GpuFixture fixture;
+	Telling telling;
+	telling.lamps[0] = true;
+	const std::vector<Vector3> before = light_of(fixture.device(), telling);
+	for (telling.turn = 1; telling.turn < 3; telling.turn++) {
+		// Other random numbers: a cell's come from its coordinates.
+		CHECK(std::abs(difference(before, light_of(fixture.device(), telling)).mean) < 0.01);
+	}
+}
+
+TEST_CASE("metamorphic: twice the emission is twice the light") {
+	GpuFixture fixture;
+	Telling telling;
+	telling.lamps[0] = true;
+	std::vector<Vector3> before = light_of(fixture.device(), telling);
+	telling.emission = 2.0f;
+	const std::vector<Vector3> after = light_of(fixture.device(), telling);
+	for (Vector3 &value : before) {
+		value *= 2.0f;
+	}
+	// Records add emission up in fixed point.
+	CHECK(difference(before, after).largest < 0.001);
+}
+
+TEST_CASE("metamorphic: two lamps give the sum of each alone") {
+	GpuFixture fixture;
+	std::vector<Vector3> sum, both;
+	for (int i = 0; i < 3; i++) {
+		Telling telling;
+		telling.panel = false;
+		telling.lamps[0] = i != 1;
+		telling.lamps[1] = i != 0;
+		const std::vector<Vector3> values = light_of(fixture.device(), telling);
+		sum.resize(values.size(), Vector3(0.0f));
+		for (size_t k = 0; k < values.size() && i < 2; k++) {
+			sum[k] += values[k];
+		}
+		both = values;
+	}
+	CHECK(difference(sum, both).largest < 0.01);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Whole frames with GI: what the camera's direction must not change.
+#include "servers/rendering/rendering_server.h"
+#include "tests/gpu/gpu_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace lucent;
+using lucent::test::GpuFixture;
+
+namespace {
+
+MeshSurface box(const Vector3 &p_half, bool p_inward, MaterialRid p_material) {
+	MeshSurface surface;
+	surface.material = p_material;
+	for (int axis = 0; axis < 3; axis++) {
+		for (int side = 0; side < 2; side++) {
+			Vector3 normal(0.0f), u(0.0f), v(0.0f);
+			normal[axis] = side == 0 ? 1.0f : -1.0f;
+			u[(axis + 1) % 3] = normal[axis];
+			v[(axis + 2) % 3] = 1.0f;
+			const uint32_t first = uint32_t(surface.positions.size());
+			for (const Vector3 &corner : { normal - u - v, normal + u - v, normal + u + v, normal - u + v }) {
+				surface.positions.push_back(corner * p_half);
+				surface.normals.push_back(p_inward ? -normal : normal);
+				surface.uvs.push_back(Vector2(0.0f));
+			}
+			for (const uint32_t i : { 0u, 1u, 2u, 0u, 2u, 3u }) {
+				surface.indices.push_back(first + (p_inward ? (3 - i) : i));
+			}
+		}
+	}
+	return surface;
+}
+
+// A closed room with a block, a lamp panel and an omni light with a shadow; the camera stands in a corner.
+struct Room {
+	RenderingServer server;
+	ScenarioRid scenario;
+	CameraRid camera;
+	ViewportRid viewport;
+
+	explicit Room(RenderingDevice &p_device) :
+			server(&p_device) {
+		scenario = server.scenario_create();
+		const EnvironmentRid environment = server.environment_create();
+		SdfgiSettings settings;
+		settings.enabled = true;
+		settings.cascades = 2;
+		settings.grid_size_cells = 64;
+		settings.min_cell_size_m = 0.25f;
+		settings.frames_to_converge = 2;
+		server.environment_set_sdfgi(environment, settings);
+		server.environment_set_background(environment, BackgroundMode::COLOR);
+		server.environment_set_bg_color(environment, Vector3(0.25f, 0.5f, 1.0f));
+		server.scenario_set_environment(scenario, environment);
+		add_box(Vector3(2.5f, 1.5f, 2.0f), true, Vector3(0.75f, 0.5f, 0.25f), 0.0f, Vector3(0.0f));
+		add_box(Vector3(0.5f, 0.75f, 0.5f), false, Vector3(0.25f, 0.5f, 0.75f), 0.0f, Vector3(0.75f, -0.75f, -0.5f));
+		add_box(Vector3(0.5f, 0.0625f, 0.5f), false, Vector3(0.5f), 8.0f, Vector3(-1.0f, 1.25f, 0.0f));
+		Light light;
+		light.range_m = 6.0f;
+		light.shadow_enabled = true;
+		const LightRid lamp = server.omni_light_create();
+		server.light_set(lamp, light);
+		const InstanceRid instance = server.instance_create();
+		server.instance_set_base(instance, lamp);
+		server.instance_set_scenario(instance, scenario);
+		server.instance_set_transform(instance, { Basis(1.0f), Vector3(1.5f, 1.0f, 1.0f) });
+		camera = server.camera_create();
+		Camera parameters;
+		parameters.fov_degrees = 75.0f;
+		server.camera_set(camera, parameters);
+		turn(0.0f);
+		viewport = server.viewport_create();
+		server.viewport_set_size(viewport, 64, 36);
+		server.viewport_set_scenario(viewport, scenario);
+		server.viewport_attach_camera(viewport, camera);
+	}
+	void add_box(const Vector3 &p_half, bool p_inward, const Vector3 &p_albedo, float p_emission, const Vector3 &p_origin) {
+		Material material;
+		material.albedo = Vector4(p_albedo, 1.0f);
+		material.emission = Vector3(p_emission);
+		material.roughness = 0.6f;
+		const MaterialRid rid = server.material_create();
+		server.material_set(rid, material);
+		const MeshRid mesh = server.mesh_create();
+		server.mesh_add_surface(mesh, box(p_half, p_inward, rid));
+		const InstanceRid instance = server.instance_create();
+		server.instance_set_base(instance, mesh);
+		server.instance_set_scenario(instance, scenario);
+		server.instance_set_transform(instance, { Basis(1.0f), p_origin });
+	}
+	void turn(float p_angle) {
+		const float c = std::cos(p_angle), s = std::sin(p_angle);
+		server.camera_set_transform(camera, { Basis(Vector3(c, 0, -s), Vector3(0, 1, 0), Vector3(s, 0, c)), Vector3(-0.5f, 0.0f, 1.5f) });
+	}
+	std::vector<float> draw() {
+		server.draw();
+		return server.viewport_get_image(viewport, ViewportBuffer::COLOR_LINEAR).values;
+	}
+};
+
+double mean(const std::vector<float> &p_values) {
+	double sum = 0.0;
+	for (const float value : p_values) {
+		sum += value;
+	}
+	return sum / double(p_values.size());
+}
+
+} // namespace
+
+TEST_SUITE_BEGIN("gpu");
+
+TEST_CASE("metamorphic: a camera that turns in place after convergence changes nothing in GI") {
+	GpuFixture fixture;
+	Room room(fixture.device());
+	for (int frame = 0; frame < 100 && !room.server.get_frame_stats().gi.converged; frame++) {
+		room.server.draw();
+	}
+	const std::vector<float> before = room.draw();
+	const uint64_t frames = room.server.get_frame_stats().gi.frames;
+	REQUIRE(room.server.get_frame_stats().gi.converged);
+	CHECK(mean(before) > 0.05);
+	for (const float angle : { 0.7f, 1.9f, -2.5f }) {
+		room.turn(angle);
+		CHECK(room.draw() != before);
+		CHECK(room.server.get_frame_stats().gi.rays == 0);
+	}
+	room.turn(0.0f);
+	CHECK(room.draw() == before);
+	CHECK(room.server.get_frame_stats().gi.frames == frames);
+	CHECK(room.server.get_frame_stats().gi.converged);
+}
+
+TEST_SUITE_END();
