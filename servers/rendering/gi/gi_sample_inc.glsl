@@ -5,8 +5,11 @@
 #ifndef GI_SAMPLE_INC
 #define GI_SAMPLE_INC
 #extension GL_EXT_samplerless_texture_functions : require
-#include "servers/rendering/gi/world/world_io.h"
+#include "servers/rendering/gi/world/world_lookup_inc.glsl"
 #include "servers/rendering/gi/sdfgi/probes_inc.glsl"
+
+WorldCell cell_on_way(uint cascade, ivec3 cell);
+#define WORLD_CELL_ON_WAY cell_on_way
 #include "servers/rendering/gi/world/surface_light_inc.glsl"
 
 layout(set = 0, binding = WORLD_BINDING(GI_PROBE_IRRADIANCE)) uniform texture2D gi_probe_irradiance;
@@ -16,8 +19,10 @@ layout(set = 0, binding = WORLD_BINDING(GI_PROBE_OFFSETS), scalar) readonly buff
 };
 layout(set = 0, binding = WORLD_BINDING(GI_PROBE_SAMPLER)) uniform sampler gi_probe_sampler;
 
-// Roughness from which a reflection is no longer traced, and from which it is read as irradiance; between them the probes' radiance.
-#define GI_TRACED_ROUGHNESS 0.25
+// A reflection is traced up to the first roughness, and no longer from the second on: there a texel of the probes' radiance is no wider
+// than the lobe. From the third on it is read as irradiance.
+#define GI_TRACED_ROUGHNESS 0.1
+#define GI_UNTRACED_ROUGHNESS 0.25
 #define GI_DIFFUSE_ROUGHNESS 0.8
 // Roughness that the prepass writes for surfaces without a specular lobe: no radiance is looked up.
 #define GI_NO_SPECULAR 1.5
@@ -51,32 +56,57 @@ void find_query_start(inout GiQuery query, uint cascade) {
 	}
 }
 
-// Irradiance from the records of the 2 x 2 x 2 cells whose centres surround the point. w: how much of the footprint answered.
+// The 2 x 2 x 2 cells whose centres surround the point in question; ways between its surfaces hardly leave them.
+struct CellFootprint {
+	ivec3 base;
+	vec3 f; // the point's place between the centres
+	WorldCell cells[8]; // x + 2 y + 4 z; all bits 0: nothing stored
+	bool is_plain; // surfaces of one face direction only, all flat: nothing stands between two points on them
+};
+CellFootprint footprint;
+
+void find_footprint(vec3 position_m, uint cascade) {
+	vec3 p = position_m / world.cascades[cascade].cell_m - 0.5;
+	footprint.base = ivec3(floor(p));
+	footprint.f = p - vec3(footprint.base);
+	uint all_faces = 0u;
+	bool all_flat = true;
+	for (uint i = 0u; i < 8u; i++) {
+		ivec3 cell = footprint.base + ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
+		ivec3 local = cell - world.cascades[cascade].origin_cells;
+		bool inside = all(greaterThanEqual(local, ivec3(0))) && all(lessThan(local, ivec3(int(world.grid_size))));
+		footprint.cells[i] = inside ? load_cell(cascade, cell) : WorldCell(uvec2(0u), 0u);
+		all_faces |= footprint.cells[i].records & 63u;
+		all_flat = all_flat && ((footprint.cells[i].bits.x | footprint.cells[i].bits.y) == 0u || (footprint.cells[i].records & WORLD_CELL_FLAT) != 0u);
+	}
+	footprint.is_plain = all_flat && (all_faces & (all_faces - 1u)) == 0u;
+}
+
+WorldCell cell_on_way(uint cascade, ivec3 cell) {
+	ivec3 local = cell - footprint.base;
+	if (all(greaterThanEqual(local, ivec3(0))) && all(lessThan(local, ivec3(2)))) {
+		return footprint.cells[local.x + 2 * local.y + 4 * local.z];
+	}
+	return load_cell(cascade, cell);
+}
+
+// Irradiance from the records of the 2 x 2 x 2 cells whose centres surround the point. w: how much of it answered.
 vec4 sample_records(GiQuery query, uint cascade) {
-	GiCascade c = world.cascades[cascade];
-	vec3 p = query.position_m / c.cell_m - 0.5;
-	ivec3 base = ivec3(floor(p));
-	vec3 f = p - vec3(base);
+	find_footprint(query.position_m, cascade);
 	vec3 n = query.normal;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
 	uint end = record_end(cascade);
 	float cell_along_normal = 4.0 * sub_voxel_along_m(cascade, n);
 	for (uint i = 0u; i < 8u; i++) {
-		ivec3 corner = ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
-		vec3 axis_weight = mix(1.0 - f, f, vec3(corner));
+		uint packed_records = footprint.cells[i].records;
+		vec3 axis_weight = mix(1.0 - footprint.f, footprint.f, vec3(float(i & 1u), float((i >> 1) & 1u), float(i >> 2)));
 		// Along the normal the surface may lie anywhere in its cell: there the distance to its plane decides.
 		axis_weight = mix(axis_weight, vec3(1.0), n * n);
 		float cell_weight = axis_weight.x * axis_weight.y * axis_weight.z;
-		ivec3 local = base + corner - c.origin_cells;
-		if (cell_weight < 0.01 || any(lessThan(local, ivec3(0))) || any(greaterThanEqual(local, ivec3(int(world.grid_size))))) {
+		if ((packed_records & 63u) == 0u || cell_weight < 0.01) {
 			continue;
 		}
-		uint cell = find_cell(cascade, storage_from_world_cell(base + corner));
-		if (cell >= WORLD_LOST_CELL) {
-			continue;
-		}
-		uint packed_records = world_cells[cell].records;
 		uint index = cell_first_record(packed_records);
 		for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
 			WorldRecord record = world_records[index];
@@ -89,17 +119,17 @@ vec4 sample_records(GiQuery query, uint cascade) {
 			if (weight < 0.002) {
 				continue;
 			}
-			if (query.has_start && !short_way_is_free(cascade, query.start_m, record_start_m(record))) {
-				continue;
-			}
-			if (!query.has_start && cell_is_split(packed_records & 63u)) {
-				continue;
+			if (!footprint.is_plain) {
+				bool seen = query.has_start ? short_way_is_free(cascade, query.start_m, record_start_m(record)) : !cell_is_split(packed_records & 63u);
+				if (!seen) {
+					continue;
+				}
 			}
 			sum += weight * vec4_from_half4(world_record_light[index].zw).rgb;
 			weight_sum += weight;
 		}
 	}
-	return weight_sum > 0.0 ? vec4(sum / weight_sum, clamp(weight_sum * 10.0, 0.0, 1.0)) : vec4(0.0);
+	return weight_sum > 0.0 ? vec4(sum / weight_sum, clamp(weight_sum * 20.0, 0.0, 1.0)) : vec4(0.0);
 }
 
 vec2 probe_uv(uint index, vec3 direction, int texels, vec2 atlas_size) {
@@ -137,6 +167,9 @@ ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_r
 		float weight = max(axis_weight.x * axis_weight.y * axis_weight.z, 1e-3);
 		float facing = dot(to_probe / distance_m, query.normal) * 0.5 + 0.5;
 		weight *= facing * facing + 0.02;
+		if (!with_visibility && weight < 0.01) {
+			continue;
+		}
 		if (with_visibility && trace_world(query.start_m, to_probe / distance_m, distance_m, cascade).hit) {
 			continue;
 		}
@@ -157,10 +190,11 @@ float cascade_fade(uint cascade, vec3 position_m) {
 	return clamp((min(to_edge.x, min(to_edge.y, to_edge.z)) - 1.0) / float(probe_params.spacing_cells), 0.0, 1.0);
 }
 
-GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
-	GiSample result = GiSample(vec3(0.0), vec3(0.0), 0.0);
+// `rays`: probes are asked with visibility where records don't answer in full; without, false is returned there.
+bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, const bool rays, out GiSample result) {
+	result = GiSample(vec3(0.0), vec3(0.0), 0.0);
 	vec3 reflected = reflect(-view, normal);
-	bool with_radiance = roughness < GI_NO_SPECULAR;
+	bool glossy = roughness < GI_DIFFUSE_ROUGHNESS;
 	float left = 1.0;
 	uint first = finest_cascade(position_m);
 	GiQuery query = GiQuery(position_m, normal, view, roughness, position_m, false);
@@ -173,11 +207,13 @@ GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
 		vec4 records = sample_records(query, cascade);
 		vec3 irradiance = records.rgb;
 		vec3 radiance = records.rgb;
-		bool glossy = with_radiance && roughness < GI_DIFFUSE_ROUGHNESS;
+		if (records.w < 1.0 && !rays) {
+			return false;
+		}
 		if (records.w < 1.0 || glossy) {
 			// Where records answer, probes only give the light's shape: their mirror direction against their own irradiance, so that
 			// probes behind a wall change little and no ray to them is needed.
-			bool with_visibility = probe_params.use_occlusion != 0u && records.w < 1.0;
+			bool with_visibility = rays && probe_params.use_occlusion != 0u && records.w < 1.0;
 			ProbeSums probes = sample_probes(query, cascade, reflected, glossy, with_visibility);
 			if (probes.weight > 0.0) {
 				vec3 probe_irradiance = probes.irradiance / probes.weight;
@@ -193,7 +229,18 @@ GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
 	}
 	result.irradiance *= probe_params.energy;
 	result.radiance *= probe_params.energy;
+	return true;
+}
+
+GiSample gi_sample(vec3 position_m, vec3 normal, vec3 view, float roughness) {
+	GiSample result;
+	sample_cascades(position_m, normal, view, roughness, true, result);
 	return result;
+}
+
+// False: rays are needed, and `result` is none.
+bool gi_sample_without_rays(vec3 position_m, vec3 normal, vec3 view, float roughness, out GiSample result) {
+	return sample_cascades(position_m, normal, view, roughness, false, result);
 }
 
 #endif

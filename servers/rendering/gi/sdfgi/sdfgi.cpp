@@ -36,6 +36,8 @@ struct Sdfgi::Impl {
 	OwnedBuffer probe_places;
 	OwnedBuffer probe_list;
 	OwnedBuffer statistics;
+	OwnedBuffer ray_pixels; // of the largest picture so far
+	uint32_t ray_pixel_capacity = 0;
 	OwnedTexture radiance_atlas;
 	OwnedTexture irradiance_atlas;
 	SamplerHandle probe_sampler;
@@ -86,7 +88,7 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	cascades_placed = false;
 	stats = {};
 	stats.probes = probes;
-	stats.bytes = world->size_bytes() + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
+	stats.bytes = world->size_bytes() + uint64_t(ray_pixel_capacity) * 4 + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
 }
 
 SdfgiPassInputs Sdfgi::Impl::pass_inputs() const {
@@ -237,10 +239,25 @@ void Sdfgi::after_frame() {
 }
 
 void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
+	const uint32_t pixels = p_inputs.width * p_inputs.height;
+	if (impl->ray_pixel_capacity < pixels) {
+		impl->ray_pixels = impl->device.create_buffer({ .size_bytes = 4 + uint64_t(pixels) * 4, .name = "sdfgi.ray_pixels" });
+		impl->stats.bytes += uint64_t(pixels - impl->ray_pixel_capacity) * 4;
+		impl->ray_pixel_capacity = pixels;
+	}
 	const shader::GatherConstants constants = { .world_from_clip = p_inputs.world_from_clip, .camera_m = p_inputs.camera_position_m, .width = p_inputs.width, .height = p_inputs.height, .view = 0 };
-	ComputePass pass = r_recorder.compute("sdfgi.gather_gi", Shader::GATHER_GI);
-	bind_gi_sampling(pass, impl->pass_inputs());
-	pass.read(20, p_inputs.depth).read(21, p_inputs.normal_roughness).write(22, p_inputs.irradiance).write(23, p_inputs.radiance).constants(constants).dispatch_threads(p_inputs.width, p_inputs.height);
+	const shader::ClearWordsConstants clear = { .first = 0, .count = 1, .value = 0 };
+	r_recorder.compute("sdfgi.clear_ray_pixels", Shader::CLEAR_WORDS).write(0, impl->ray_pixels).constants(clear).dispatch_groups(1);
+	const auto gather = [&](const char *p_name, Shader p_shader) {
+		ComputePass pass = r_recorder.compute(p_name, p_shader);
+		bind_gi_sampling(pass, impl->pass_inputs());
+		pass.read(GATHER_DEPTH, p_inputs.depth).read(GATHER_NORMAL_ROUGHNESS, p_inputs.normal_roughness).write(GATHER_IRRADIANCE, p_inputs.irradiance).write(GATHER_RADIANCE, p_inputs.radiance).read_write(GATHER_RAY_PIXELS, impl->ray_pixels).constants(constants);
+		return pass;
+	};
+	gather("sdfgi.gather_gi", Shader::GATHER_GI).dispatch_threads(p_inputs.width, p_inputs.height);
+	// Groups beyond the list's end return at once.
+	const uint32_t groups = (pixels + 63) / 64;
+	gather("sdfgi.gather_rays", Shader::GATHER_RAYS).dispatch_groups(std::min(groups, 32768u), (groups + 32767) / 32768);
 }
 
 void Sdfgi::bind_sampling(RenderPass &r_pass) const {

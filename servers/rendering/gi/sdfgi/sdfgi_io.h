@@ -18,6 +18,13 @@
 #define LIGHT_RECORDS_OUT 25
 #define LIGHT_RECORDS_STATISTICS 26
 
+// gather_gi, gather_rays
+#define GATHER_DEPTH 20
+#define GATHER_NORMAL_ROUGHNESS 21
+#define GATHER_IRRADIANCE 22
+#define GATHER_RADIANCE 23
+#define GATHER_RAY_PIXELS 24
+
 // Bindings of the list of near probes
 #define PROBE_LIST 34
 

@@ -10,6 +10,11 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly bu
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY)) uniform texture2D world_sky;
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler world_sky_sampler;
 
+// How short ways look cells up; a shader that has some at hand defines its own.
+#ifndef WORLD_CELL_ON_WAY
+#define WORLD_CELL_ON_WAY load_cell
+#endif
+
 // Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up. As for rays, the
 // solid sub-voxels of a flat cell only count where the way crosses a surface.
 bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
@@ -28,14 +33,7 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 		ivec3 now = s >> 2;
 		if (now != cell_at) {
 			cell_at = now;
-			uint index = find_cell(cascade, storage_from_world_cell(now));
-			if (index == WORLD_LOST_CELL) {
-				return false;
-			}
-			cell.bits = uvec2(0u);
-			if (index != WORLD_NO_CELL) {
-				cell = world_cells[index];
-			}
+			cell = WORLD_CELL_ON_WAY(cascade, now);
 		}
 		float t_leave = min(t_next.x, min(t_next.y, t_next.z));
 		uvec3 local = uvec3(s) & 3u;

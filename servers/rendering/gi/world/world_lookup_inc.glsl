@@ -32,6 +32,15 @@ uint find_cell(uint cascade, uvec3 storage) {
 	return index < cell_end(cascade) ? index : WORLD_LOST_CELL;
 }
 
+// The content of a world-fixed cell: no bits where nothing is stored, all bits and no records where it has no memory.
+WorldCell load_cell(uint cascade, ivec3 cell) {
+	uint index = find_cell(cascade, storage_from_world_cell(cell));
+	if (index >= WORLD_LOST_CELL) {
+		return WorldCell(uvec2(index == WORLD_NO_CELL ? 0u : 0xFFFFFFFFu), 0u);
+	}
+	return world_cells[index];
+}
+
 // Distance in cells to the nearest stored cell's centre, rounded down to a sixteenth.
 float sdf_cells(uint cascade, uvec3 storage) {
 	uint bit = bit_of_cell(storage);
