@@ -23,6 +23,8 @@ namespace {
 
 // All channels together: 1 GiB.
 constexpr uint64_t MAX_EXR_VALUES = uint64_t(1) << 28;
+// No compression comes near that: 64 texels a symbol (DWA) times Deflate's 1032.
+constexpr uint64_t MAX_TEXELS_A_BYTE = 65536;
 
 class MemoryInput : public Imf::IStream {
 public:
@@ -69,6 +71,39 @@ private:
 	uint64_t position = 0;
 };
 
+// OpenEXR allocates what an attribute claims to have before it reads: "name\0type\0", size (4 bytes), data; an empty name ends a header,
+// an empty header the headers of a file with parts.
+void check_attribute_sizes(std::span<const std::byte> p_bytes) {
+	const std::string_view text(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size());
+	const bool has_parts = text.size() > 5 && (text[5] & 0x10) != 0;
+	size_t position = 8; // magic number, version and flags
+	bool header_is_empty = true;
+	while (position < text.size()) {
+		if (text[position] == '\0') {
+			if (!has_parts || header_is_empty) {
+				return;
+			}
+			header_is_empty = true;
+			position++;
+			continue;
+		}
+		header_is_empty = false;
+		const size_t name_end = text.find('\0', position);
+		const size_t type_end = name_end == std::string_view::npos ? name_end : text.find('\0', name_end + 1);
+		if (type_end == std::string_view::npos || text.size() - type_end < 5) {
+			break;
+		}
+		uint32_t size = 0;
+		std::memcpy(&size, text.data() + type_end + 1, 4);
+		const size_t left = text.size() - type_end - 5;
+		if (size > left) {
+			throw std::runtime_error(fmt::format("an attribute of {} bytes where {} are left", size, left));
+		}
+		position = type_end + 5 + size;
+	}
+	throw std::runtime_error("the file ends within its header");
+}
+
 struct Window {
 	int min_x = 0, min_y = 0;
 	uint32_t width = 0, height = 0;
@@ -84,7 +119,7 @@ Window data_window(const Imf::Header &p_header) {
 	return { box.min.x, box.min.y, uint32_t(width), uint32_t(height) };
 }
 
-void read_part(Imf::MultiPartInputFile &p_file, int p_part, ExrImage &r_image) {
+void read_part(Imf::MultiPartInputFile &p_file, int p_part, size_t p_file_bytes, ExrImage &r_image) {
 	const Imf::Header &header = p_file.header(p_part);
 	if (header.hasType() && header.type() != Imf::SCANLINEIMAGE && header.type() != Imf::TILEDIMAGE) {
 		return; // deep data has no single value a texel
@@ -99,6 +134,9 @@ void read_part(Imf::MultiPartInputFile &p_file, int p_part, ExrImage &r_image) {
 	const std::string prefix = p_file.parts() > 1 && header.hasName() ? header.name() + "." : "";
 	const size_t first = r_image.channels.size();
 	const uint64_t texels = uint64_t(window.width) * window.height;
+	if (texels / MAX_TEXELS_A_BYTE > p_file_bytes) {
+		throw std::runtime_error(fmt::format("{} x {} texels cannot come from {} bytes", window.width, window.height, p_file_bytes));
+	}
 	for (Imf::ChannelList::ConstIterator it = header.channels().begin(); it != header.channels().end(); ++it) {
 		if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
 			throw std::runtime_error(fmt::format("channel '{}' is subsampled, which is not supported", it.name()));
@@ -136,10 +174,11 @@ Result<ExrImage> read_exr_layers_from_memory(std::span<const std::byte> p_bytes,
 	try {
 		Imf::Header::setMaxImageSize(int(MAX_IMAGE_SIDE_TEXELS), int(MAX_IMAGE_SIDE_TEXELS));
 		Imf::Header::setMaxTileSize(int(MAX_IMAGE_SIDE_TEXELS), int(MAX_IMAGE_SIDE_TEXELS));
+		check_attribute_sizes(p_bytes);
 		MemoryInput input(p_bytes, p_name);
 		Imf::MultiPartInputFile file(input, 0, false);
 		for (int part = 0; part < file.parts(); part++) {
-			read_part(file, part, image);
+			read_part(file, part, p_bytes.size(), image);
 		}
 	} catch (const std::exception &exception) {
 		return make_error("{}: broken or truncated EXR ({})", p_name, exception.what());

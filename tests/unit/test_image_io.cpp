@@ -117,6 +117,22 @@ TEST_CASE("EXR: Y is grey, a layered picture is found, other channels are refuse
 	CHECK(contains(refused.error().message, "depth.exr: expected the channels R, G and B, or Y"));
 }
 
+TEST_CASE("EXR: an attribute that claims more than the file holds is refused before it is allocated") {
+	const TemporaryFolder folder;
+	const std::vector<float> values(4 * 4 * 3, 0.5f);
+	const ExrLayer layers[] = { { "", { "R", "G", "B" }, values } };
+	REQUIRE(write_exr(folder.path + "a.exr", 4, 4, layers).ok());
+	std::vector<std::byte> file = read_file(folder.path + "a.exr").take();
+	const std::string type = "chlist";
+	const auto found = std::search(file.begin(), file.end(), type.begin(), type.end(), [](std::byte p_a, char p_b) { return char(p_a) == p_b; });
+	REQUIRE(found != file.end());
+	const uint32_t claimed = 0x7FFFFFFF;
+	std::memcpy(&*found + type.size() + 1, &claimed, 4);
+	const Result<Image> image = load_image_from_memory(file, "a.exr");
+	REQUIRE(!image.ok());
+	CHECK(contains(image.error().message, "a.exr: broken or truncated EXR (an attribute of 2147483647 bytes where"));
+}
+
 TEST_CASE("HDR: RGBE texels are decoded") {
 	std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
 	file += std::string("\x80\x40\x20\x81", 4) + std::string("\0\0\0\0", 4);
