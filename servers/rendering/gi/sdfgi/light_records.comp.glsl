@@ -248,7 +248,7 @@ void main() {
 				result.xy = half4_from_vec4(vec4(shown, 1.0));
 				if (constants.epoch_turn == constants.epoch_frames - 1u) {
 					atomicAdd(statistics.lit_records, dot(shown, vec3(1.0)) > 1e-6 ? 1u : 0u);
-					atomicAdd(statistics.changed_records, change > 0.01 ? 1u : 0u);
+					atomicAdd(statistics.changed_records, change > 0.02 ? 1u : 0u);
 				}
 				float unused;
 				result.zw = half4_from_vec4(vec4(advance(index * 4u + 2u, indirect, unused), 1.0));

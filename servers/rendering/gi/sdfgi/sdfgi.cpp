@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t PROBE_TILES_A_ROW = 256;
 constexpr uint32_t PROBE_AVERAGE_VISITS = 8;
-// Light is settled when fewer than this share of the lit records moved by over 1 % in an epoch, or after this many epochs.
-constexpr double SETTLED_SHARE = 0.01;
+// Light is settled when fewer than this share of the lit records moved by over 2 % in an epoch, or after this many epochs.
+constexpr double SETTLED_SHARE = 0.02;
 constexpr uint32_t MAX_EPOCHS = 24;
 
 struct DebugView {

@@ -87,7 +87,7 @@ struct GatherConstants {
 struct SdfgiStatistics {
 	uint rays;
 	uint lit_records; // at the end of an epoch: with any light
-	uint changed_records; // … whose mean moved by more than 1 %
+	uint changed_records; // … whose mean moved by more than 2 %
 };
 INTEROP_END
 INTEROP_SIZE(LightRecordsConstants, 28)
