@@ -91,7 +91,7 @@ def check_includes(path, text, errors):
 
 
 # Modules that build on others: the loaders make nodes.
-MODULE_USES = {"gltf": ("scene", "image"), "tscn": ("scene", "gltf", "image"), "reference": ("image",), "scene": ("image",)}
+MODULE_USES = {"gltf": ("scene", "image"), "tscn": ("scene", "gltf", "image"), "reference": ("image",), "scene": ("image",), "bench": ("image", "reference")}
 
 
 def check_text(path, text, errors, warnings):

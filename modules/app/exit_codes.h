@@ -19,6 +19,6 @@ inline constexpr const char *EXIT_CODES_HELP = "Exit codes:\n"
 											   "  2  an argument is wrong\n"
 											   "  3  a scene or resource can't be read\n"
 											   "  4  a result can't be written\n"
-											   "  5  lucent compare: a figure is beyond its --threshold\n";
+											   "  5  lucent compare: a figure is beyond its --threshold; lucent bench response: a picture at rest moves, or two runs differ\n";
 
 } // namespace lucent

@@ -18,6 +18,7 @@ static const char HELP[] = "Lucent: real-time global illumination from signed di
 						   "  render     draw a scene (.tscn, .glb, .gltf) into pictures (.png, .exr), without a window\n"
 						   "  reference  path-trace a scene: the truth for what render draws (.exr)\n"
 						   "  compare    say how far a picture is from the truth\n"
+						   "  bench      measure quality, speed and response; write tables and reports\n"
 						   "  info       list Vulkan devices and what they can do\n"
 						   "  doctool    write the class reference as Godot-format XML\n"
 						   "\n"
@@ -46,6 +47,9 @@ static const Command COMMANDS[] = {
 #endif
 #if defined(MODULE_REFERENCE_ENABLED) && defined(MODULE_IMAGE_ENABLED)
 	{ "compare", compare_command },
+#endif
+#if defined(MODULE_BENCH_ENABLED) && defined(MODULE_SCENE_ENABLED)
+	{ "bench", bench_command },
 #endif
 	{ "info", info_command },
 };

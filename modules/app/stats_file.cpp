@@ -23,8 +23,7 @@ static Json device_json(const DeviceInfo &p_info) {
 	};
 }
 
-// Bytes by kind: the debug name's first two parts ("sdfgi.cascade2.sdf" counts for "sdfgi" and for "sdfgi.cascade2").
-static Json memory_json(const MemoryReport &p_report) {
+Json memory_json(const MemoryReport &p_report) {
 	std::map<std::string, uint64_t> kinds;
 	std::map<std::string, uint64_t> parts;
 	for (const MemoryReport::Entry &entry : p_report.entries) {
@@ -35,6 +34,10 @@ static Json memory_json(const MemoryReport &p_report) {
 		}
 	}
 	return { { "total_bytes", p_report.total_bytes }, { "kinds", kinds }, { "parts", parts } };
+}
+
+bool is_gi_pass(const std::string &p_name) {
+	return p_name.starts_with("sdfgi.") || p_name.starts_with("gi_world.");
 }
 
 void PassTimes::add(const std::vector<std::pair<std::string, double>> &p_frame) {
@@ -59,7 +62,7 @@ static Json times_json(const PassTimes &p_times) {
 		const double mean_ms = pass.sum_ms / std::max(p_times.frames(), 1u);
 		passes.push_back({ { "name", pass.name }, { "mean_ms", mean_ms }, { "last_ms", pass.last_ms } });
 		total_ms += mean_ms;
-		gi_ms += pass.name.starts_with("sdfgi.") ? mean_ms : 0.0;
+		gi_ms += is_gi_pass(pass.name) ? mean_ms : 0.0;
 	}
 	return { { "frames", p_times.frames() }, { "total", total_ms }, { "gi", gi_ms }, { "passes", passes } };
 }

@@ -4,11 +4,16 @@
 #include "modules/app/render_options.h"
 #include "servers/rendering/rendering_server.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lucent {
+
+// Whether a pass belongs to GI by its name: those of the technique and of its world.
+bool is_gi_pass(const std::string &p_name);
 
 // GPU times over the frames of a run.
 class PassTimes {
@@ -38,6 +43,9 @@ struct RenderSummary {
 	double render_s = 0.0; // first frame to last picture
 	double total_s = 0.0;
 };
+
+// Bytes by kind: the debug name's first part, and its first two ("sdfgi.cascade2.sdf" counts for "sdfgi" and for "sdfgi.cascade2").
+nlohmann::ordered_json memory_json(const MemoryReport &p_report);
 
 // The JSON text of --stats.
 std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_summary, const RenderingServer &p_server);

@@ -12,9 +12,11 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <half.h>
 
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <stdexcept>
 
 namespace lucent {
@@ -202,6 +204,7 @@ Status write_exr(const std::string &p_path, uint32_t p_width, uint32_t p_height,
 		return make_error("{}: cannot write an EXR of {} x {} texels", p_path, p_width, p_height);
 	}
 	MemoryOutput output;
+	std::deque<std::vector<Imath::half>> halves; // what slices of half layers point to
 	try {
 		Imf::Header header{ int(p_width), int(p_height) };
 		header.compression() = Imf::ZIP_COMPRESSION;
@@ -209,12 +212,17 @@ Status write_exr(const std::string &p_path, uint32_t p_width, uint32_t p_height,
 		for (const ExrLayer &layer : p_layers) {
 			const size_t count = layer.channels.size();
 			INVARIANT(layer.values.size() == size_t(p_width) * p_height * count, "layer '{}': {} values for {} x {} x {}", layer.name, layer.values.size(), p_width, p_height, count);
+			const Imf::PixelType type = layer.half ? Imf::HALF : Imf::FLOAT;
+			const size_t size = layer.half ? sizeof(Imath::half) : sizeof(float);
+			// OpenEXR only reads through an output slice's pointer.
+			char *base = const_cast<char *>(reinterpret_cast<const char *>(layer.values.data()));
+			if (layer.half) {
+				base = reinterpret_cast<char *>(halves.emplace_back(layer.values.begin(), layer.values.end()).data());
+			}
 			for (size_t c = 0; c < count; c++) {
 				const std::string name = layer.name.empty() ? layer.channels[c] : layer.name + "." + layer.channels[c];
-				header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-				// OpenEXR only reads through an output slice's pointer.
-				char *base = const_cast<char *>(reinterpret_cast<const char *>(layer.values.data() + c));
-				frame_buffer.insert(name, Imf::Slice(Imf::FLOAT, base, count * sizeof(float), count * sizeof(float) * p_width));
+				header.channels().insert(name, Imf::Channel(type));
+				frame_buffer.insert(name, Imf::Slice(type, base + c * size, count * size, count * size * p_width));
 			}
 		}
 		Imf::OutputFile file(output, header, 0);

@@ -33,9 +33,10 @@ struct ExrLayer {
 	std::string name;
 	std::vector<std::string> channels;
 	std::span<const float> values; // width * height * channels.size()
+	bool half = false; // stored as 16-bit floats, rounded to nearest
 };
 
-// 32-bit float, ZIP compression.
+// 32-bit float unless a layer says otherwise, ZIP compression.
 Status write_exr(const std::string &p_path, uint32_t p_width, uint32_t p_height, std::span<const ExrLayer> p_layers);
 
 struct ExrChannel {

@@ -123,6 +123,8 @@ TEST_CASE("cli: help and version") {
 	CHECK(lucent_command("render --help").code == EXIT_OK);
 	CHECK(lucent_command("info --help").code == EXIT_OK);
 	CHECK(lucent_command("doctool --help").code == EXIT_OK);
+	CHECK(lucent_command("bench --help").code == EXIT_OK);
+	CHECK(lucent_command("bench quality --help").code == EXIT_OK);
 	CHECK(lucent_command("").code == EXIT_USAGE);
 	CHECK(lucent_command("rendr").code == EXIT_USAGE);
 }
@@ -140,6 +142,27 @@ TEST_CASE("cli: wrong arguments are refused before anything is drawn") {
 	check_refused(lucent_command("render '" + scene + "'"), folder, EXIT_USAGE, "-o");
 	check_refused(lucent_command("render '" + scene + "' -o x.bmp"), folder, EXIT_USAGE, ".png");
 	check_refused(render(folder, scene, "--device 'no such device'"), folder, EXIT_DEVICE, "no such device");
+}
+
+TEST_CASE("cli: bench says what is wrong before it measures") {
+	const Folder folder;
+	const std::string json = " --json '" + (folder.path / "out.json").string() + "'";
+	const CommandResult none = lucent_command("bench");
+	CHECK(none.code == EXIT_USAGE);
+	CHECK(none.count("error: ") == 1);
+	const CommandResult kind = lucent_command("bench qualty");
+	CHECK(kind.code == EXIT_USAGE);
+	CHECK(kind.count("did you mean 'quality'") == 1);
+	CHECK(lucent_command("bench speed --preset fast").code == EXIT_USAGE);
+	CHECK(lucent_command("bench quality --grid 65").code == EXIT_USAGE);
+	const CommandResult scene = lucent_command("bench quality corn" + json);
+	CHECK(scene.code == EXIT_BAD_INPUT);
+	CHECK(scene.count("no scene 'corn'") == 1);
+	CHECK(lucent_command("bench quality cornell --json /proc/never.json").code == EXIT_OUTPUT);
+	const CommandResult size = lucent_command("bench quality cornell --size 100x100" + json + device_option());
+	CHECK(size.code == EXIT_BAD_INPUT);
+	CHECK(size.count("100x100") == 1);
+	CHECK(folder.count() == 0);
 }
 
 TEST_CASE("cli: --set says what is wrong") {
