@@ -100,6 +100,29 @@ void for_each_cell(F &&p_visit) {
 } // namespace
 
 TEST_SUITE("gpu") {
+	TEST_CASE("floors over a whole cascade are solid in every cell") {
+		GpuFixture fixture;
+		RenderingDevice &device = fixture.device();
+		GiTestScene scene(device);
+		const uint32_t material = scene.add_material(Vector3(0.5f));
+		// Twelve triangles, one work group's, of 4096 columns of cells each.
+		for (int layer = -3; layer < 3; layer++) {
+			const float y = float(layer) * 0.8f + 0.07f;
+			scene.add_quad(Vector3(-9.0f, y, 9.0f), Vector3(9.0f, y, 9.0f), Vector3(9.0f, y, -9.0f), Vector3(-9.0f, y, -9.0f), material);
+		}
+		GiWorld world(device, { .cascades = 1, .grid_size = GRID, .min_cell_m = 0.2f, .y_multiplier = 1.0f });
+		world.set_origin_cells(0, Vector3i(-32));
+		const ReadWorld read = build_and_read(device, world, scene.upload());
+		uint32_t wrong = 0;
+		for_each_cell([&](const Vector3i &p_cell) {
+			const int y = p_cell.y - 32;
+			const bool floor_cell = y >= -12 && y < 12 && (y + 12) % 4 == 0;
+			// 0.07 m into a cell of 0.2 m: the second layer of sub-voxels.
+			wrong += read.occupied(p_cell) != floor_cell || (floor_cell && read.bits(p_cell) != 0x00F000F000F000F0u) ? 1 : 0;
+		});
+		CHECK(wrong == 0);
+	}
+
 	TEST_CASE("every sub-voxel that a triangle touches is solid, and no other beyond the touch distance") {
 		GpuFixture fixture;
 		RenderingDevice &device = fixture.device();

@@ -86,17 +86,17 @@ TEST_SUITE("gpu") {
 			const uint32_t lamp = scene.add_material(Vector3(0.8f), Vector3(50.0f));
 			const float wall = offset;
 			// Two rooms as one closed shell of boxes, 5 cm walls.
-			scene.add_box(Vector3(wall, -1.0f, -2.0f), Vector3(wall + 0.05f, 1.0f, 2.0f), white);
-			scene.add_box(Vector3(-3.0f, -1.05f, -2.0f), Vector3(3.0f, -1.0f, 2.0f), white);
-			scene.add_box(Vector3(-3.0f, 1.0f, -2.0f), Vector3(3.0f, 1.05f, 2.0f), white);
-			scene.add_box(Vector3(-3.0f, -1.0f, -2.05f), Vector3(3.0f, 1.0f, -2.0f), white);
-			scene.add_box(Vector3(-3.0f, -1.0f, 2.0f), Vector3(3.0f, 1.0f, 2.05f), white);
-			scene.add_box(Vector3(-3.05f, -1.0f, -2.0f), Vector3(-3.0f, 1.0f, 2.0f), white);
-			scene.add_box(Vector3(3.0f, -1.0f, -2.0f), Vector3(3.05f, 1.0f, 2.0f), white);
+			scene.add_box(Vector3(wall, -1.0f, -1.2f), Vector3(wall + 0.05f, 1.0f, 1.2f), white);
+			scene.add_box(Vector3(-2.2f, -1.05f, -1.2f), Vector3(2.2f, -1.0f, 1.2f), white);
+			scene.add_box(Vector3(-2.2f, 1.0f, -1.2f), Vector3(2.2f, 1.05f, 1.2f), white);
+			scene.add_box(Vector3(-2.2f, -1.0f, -1.25f), Vector3(2.2f, 1.0f, -1.2f), white);
+			scene.add_box(Vector3(-2.2f, -1.0f, 1.2f), Vector3(2.2f, 1.0f, 1.25f), white);
+			scene.add_box(Vector3(-2.25f, -1.0f, -1.2f), Vector3(-2.2f, 1.0f, 1.2f), white);
+			scene.add_box(Vector3(2.2f, -1.0f, -1.2f), Vector3(2.25f, 1.0f, 1.2f), white);
 			scene.add_box(Vector3(-1.2f, -0.2f, -0.2f), Vector3(-0.8f, 0.2f, 0.2f), lamp);
 			Sdfgi sdfgi(fixture.device());
 			run_sdfgi(fixture.device(), sdfgi, small_settings(SdfgiYScale::SCALE_75_PERCENT), scene.upload(), Vector3(0.0f), 32);
-			const std::vector<Vector3> points = { { wall + 0.06f, -1.0f, 0.0f }, { wall + 0.05f, 0.0f, 0.3f }, { wall + 0.15f, 1.0f, 0.5f }, { 1.5f, -1.0f, 0.0f }, { 3.0f, 0.0f, 0.0f }, { 0.0f + wall, 0.0f, 0.0f } };
+			const std::vector<Vector3> points = { { wall + 0.06f, -1.0f, 0.0f }, { wall + 0.05f, 0.0f, 0.3f }, { wall + 0.15f, 1.0f, 0.5f }, { 1.5f, -1.0f, 0.0f }, { 2.2f, 0.0f, 0.0f }, { 0.0f + wall, 0.0f, 0.0f } };
 			const std::vector<Vector3> normals = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { -1, 0, 0 } };
 			const std::vector<Vector3> values = gather_at(fixture.device(), sdfgi, points, normals);
 			for (size_t i = 0; i + 1 < values.size(); i++) {
