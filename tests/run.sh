@@ -47,7 +47,7 @@ suite() {
 	((bad == 0)) || failures+=("$name")
 	passed=$((passed + ok))
 	failed=$((failed + bad))
-	say "== $name: $ok passed, $bad failed, $skipped skipped for a missing device feature, $((SECONDS - start)) s"
+	say "== $name: $ok passed, $bad failed, $skipped skipped for what the device or the machine lacks, $((SECONDS - start)) s"
 }
 
 check_format() {

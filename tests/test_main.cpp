@@ -23,7 +23,7 @@ struct Counts {
 
 Options test_options = { "", "./" };
 std::string results_path;
-std::string missing_feature; // of the running case
+std::string missing; // why the running case was skipped
 Counts counts;
 
 // Rewritten after every case, so that a crash leaves the counts up to it.
@@ -46,7 +46,7 @@ struct CountingListener final : doctest::IReporter {
 	void test_run_end(const doctest::TestRunStats &) override { write_results(); }
 	void test_case_start(const doctest::TestCaseData &p_case) override {
 		current = &p_case;
-		missing_feature.clear();
+		missing.clear();
 	}
 	void test_case_reenter(const doctest::TestCaseData &) override {}
 	void test_case_end(const doctest::CurrentTestCaseStats &p_stats) override {
@@ -54,13 +54,13 @@ struct CountingListener final : doctest::IReporter {
 		if (!p_stats.testCaseSuccess) {
 			counts.failed++;
 			verdict = "FAILED";
-		} else if (!missing_feature.empty()) {
+		} else if (!missing.empty()) {
 			counts.skipped++;
 			verdict = "skipped";
 		} else {
 			counts.passed++;
 		}
-		std::printf("%-7s %6.2f s  %s%s%s\n", verdict, p_stats.seconds, current->m_name, missing_feature.empty() ? "" : ": the device lacks ", missing_feature.c_str());
+		std::printf("%-7s %6.2f s  %s%s%s\n", verdict, p_stats.seconds, current->m_name, missing.empty() ? "" : ": ", missing.c_str());
 		std::fflush(stdout);
 		write_results();
 	}
@@ -122,8 +122,8 @@ const Options &options() {
 	return test_options;
 }
 
-void note_missing_feature(const std::string &p_feature) {
-	missing_feature = p_feature;
+void note_missing(const std::string &p_reason) {
+	missing = p_reason;
 }
 
 } // namespace lucent::test

@@ -12,14 +12,20 @@ struct Options {
 };
 const Options &options();
 
-// Notes that the running case does nothing because the device lacks p_feature. No other reason for a skip is accepted.
-void note_missing_feature(const std::string &p_feature);
+// Notes that the running case does nothing for what is missing: "the device lacks timestamps". No other reason for a skip is accepted.
+void note_missing(const std::string &p_reason);
 
 } // namespace lucent::test
 
 // Ends the running case: SKIP_MISSING_FEATURE("timestamps");
 #define SKIP_MISSING_FEATURE(m_feature) \
 	do { \
-		::lucent::test::note_missing_feature(m_feature); \
+		::lucent::test::note_missing(std::string("the device lacks ") + m_feature); \
+		return; \
+	} while (false)
+// For a program that `./lucent test` installs, so that only a test program carried to another machine can lack it.
+#define SKIP_MISSING_TOOL(m_program) \
+	do { \
+		::lucent::test::note_missing(std::string("the machine lacks the program ") + m_program); \
 		return; \
 	} while (false)

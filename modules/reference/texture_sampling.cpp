@@ -16,13 +16,24 @@ const std::array<float, 256> SRGB_TABLE = [] {
 	return table;
 }();
 
-uint32_t wrap_index(int64_t p_index, uint32_t p_size, TextureWrap p_wrap) {
-	const int64_t size = p_size;
+const std::array<float, 256> UNORM_TABLE = [] {
+	std::array<float, 256> table{};
+	for (size_t i = 0; i < table.size(); i++) {
+		table[i] = float(i) / 255.0f;
+	}
+	return table;
+}();
+
+uint32_t wrap_index(int32_t p_index, uint32_t p_size, TextureWrap p_wrap) {
+	if (uint32_t(p_index) < p_size) {
+		return uint32_t(p_index); // the usual case: a division takes as long as the rest
+	}
+	const int32_t size = int32_t(p_size);
 	switch (p_wrap) {
 		case TextureWrap::CLAMP:
-			return uint32_t(glm::clamp<int64_t>(p_index, 0, size - 1));
+			return uint32_t(glm::clamp(p_index, 0, size - 1));
 		case TextureWrap::MIRRORED_REPEAT: {
-			const int64_t folded = ((p_index % (2 * size)) + 2 * size) % (2 * size);
+			const int32_t folded = ((p_index % (2 * size)) + 2 * size) % (2 * size);
 			return uint32_t(folded < size ? folded : 2 * size - 1 - folded);
 		}
 		case TextureWrap::REPEAT:
@@ -56,11 +67,8 @@ Vector4 read_texel(const SceneTexture &p_texture, uint32_t p_x, uint32_t p_y) {
 		return value;
 	}
 	const auto byte = [texel](size_t p_channel) { return uint8_t(texel[p_channel]); };
-	const float alpha = float(byte(3)) / 255.0f;
-	if (p_texture.srgb) {
-		return Vector4(SRGB_TABLE[byte(0)], SRGB_TABLE[byte(1)], SRGB_TABLE[byte(2)], alpha);
-	}
-	return Vector4(float(byte(0)) / 255.0f, float(byte(1)) / 255.0f, float(byte(2)) / 255.0f, alpha);
+	const std::array<float, 256> &table = p_texture.srgb ? SRGB_TABLE : UNORM_TABLE;
+	return Vector4(table[byte(0)], table[byte(1)], table[byte(2)], UNORM_TABLE[byte(3)]);
 }
 
 Vector4 sample_texture(const SceneTexture &p_texture, const TextureRef &p_ref, const Vector2 &p_uv) {
@@ -74,17 +82,17 @@ Vector4 sample_texture(const SceneTexture &p_texture, const TextureRef &p_ref, c
 	if (!(std::abs(position.x) < 1e7f && std::abs(position.y) < 1e7f)) {
 		position = Vector2(0.0f);
 	}
-	const auto texel = [&](int64_t p_x, int64_t p_y) {
-		return read_texel(p_texture, wrap_index(p_x, width, p_ref.wrap_u), wrap_index(p_y, height, p_ref.wrap_v));
-	};
+	// The whole part by truncation: floor() is a call where the processor's baseline has no instruction for it.
+	const auto floor_of = [](float p_value) { return int32_t(p_value) - (p_value < float(int32_t(p_value)) ? 1 : 0); };
 	if (is_nearest(p_ref.filter)) {
-		return texel(int64_t(std::floor(position.x)), int64_t(std::floor(position.y)));
+		return read_texel(p_texture, wrap_index(floor_of(position.x), width, p_ref.wrap_u), wrap_index(floor_of(position.y), height, p_ref.wrap_v));
 	}
-	const Vector2 corner = glm::floor(position - 0.5f);
-	const Vector2 weight = position - 0.5f - corner;
-	const int64_t x = int64_t(corner.x);
-	const int64_t y = int64_t(corner.y);
-	return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), weight.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), weight.x), weight.y);
+	const int32_t x = floor_of(position.x - 0.5f);
+	const int32_t y = floor_of(position.y - 0.5f);
+	const Vector2 weight = position - 0.5f - Vector2(float(x), float(y));
+	const uint32_t x0 = wrap_index(x, width, p_ref.wrap_u), x1 = wrap_index(x + 1, width, p_ref.wrap_u);
+	const uint32_t y0 = wrap_index(y, height, p_ref.wrap_v), y1 = wrap_index(y + 1, height, p_ref.wrap_v);
+	return glm::mix(glm::mix(read_texel(p_texture, x0, y0), read_texel(p_texture, x1, y0), weight.x), glm::mix(read_texel(p_texture, x0, y1), read_texel(p_texture, x1, y1), weight.x), weight.y);
 }
 
 float select_channel(const Vector4 &p_value, TextureChannel p_channel) {

@@ -69,6 +69,11 @@ RTCRayHit make_query(const Ray &p_ray, uint32_t p_mask) {
 	return query;
 }
 
+// The same texels, whatever the channel.
+bool reads_alike(const TextureRef &p_a, const TextureRef &p_b) {
+	return p_a.texture == p_b.texture && p_a.uv_set == p_b.uv_set && p_a.wrap_u == p_b.wrap_u && p_a.wrap_v == p_b.wrap_v && p_a.filter == p_b.filter && p_a.uv_offset == p_b.uv_offset && p_a.uv_scale == p_b.uv_scale && p_a.uv_rotation == p_b.uv_rotation;
+}
+
 bool needs_filter(const TraceMaterial &p_material, const TraceSurface &p_surface) {
 	return p_material.parameters.transparency != TransparencyMode::OPAQUE || p_surface.opacity < 1.0f;
 }
@@ -149,6 +154,7 @@ uint32_t TraceScene::add_material(const RenderScene &p_scene, const Material *p_
 			material.texture_mask |= 1u << slot;
 		}
 	}
+	material.one_fetch = material.has_texture(TextureSlot::METALLIC) && reads_alike(parameters.textures[size_t(TextureSlot::METALLIC)], parameters.textures[size_t(TextureSlot::ROUGHNESS)]);
 	material.lobes = brdf::brdf_lobes(Vector3(parameters.albedo), parameters.metallic, parameters.roughness, parameters.specular, parameters.specular_tint);
 	material.constant = !material.has_texture(TextureSlot::ALBEDO) && !material.has_texture(TextureSlot::METALLIC) &&
 			!material.has_texture(TextureSlot::ROUGHNESS) && !parameters.vertex_color_use_as_albedo;

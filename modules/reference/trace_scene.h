@@ -28,6 +28,7 @@ struct TraceMaterial {
 	brdf::BrdfLobes lobes; // where no texture or vertex colour changes them
 	bool constant = false; // lobes and albedo hold everywhere
 	bool lambertian = false; // no specular lobe anywhere
+	bool one_fetch = false; // metallic and roughness are channels of the same texels
 	bool emissive = false; // emits somewhere, and light sampling may find it
 
 	bool has_texture(TextureSlot p_slot) const { return (texture_mask >> uint32_t(p_slot)) & 1; }

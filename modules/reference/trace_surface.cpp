@@ -97,14 +97,14 @@ Vector3 TraceScene::emission(uint32_t p_surface, uint32_t p_primitive, float p_u
 
 brdf::BrdfLobes TraceScene::lobes_at(const TraceSurface &p_surface, const TraceMaterial &p_material, const RayHit &p_hit, const Vector3 &p_albedo) const {
 	const Material &parameters = p_material.parameters;
-	const auto channel = [&](TextureSlot p_slot, float p_factor) {
-		if (!p_material.has_texture(p_slot)) {
-			return p_factor;
-		}
-		return p_factor * select_channel(fetch(p_surface, p_material, p_slot, p_hit.primitive, p_hit.u, p_hit.v), parameters.textures[size_t(p_slot)].channel);
+	const auto texel = [&](TextureSlot p_slot) {
+		return p_material.has_texture(p_slot) ? fetch(p_surface, p_material, p_slot, p_hit.primitive, p_hit.u, p_hit.v) : Vector4(1.0f);
 	};
-	const float metallic = channel(TextureSlot::METALLIC, parameters.metallic);
-	const float roughness = channel(TextureSlot::ROUGHNESS, parameters.roughness);
+	const auto channel = [&](TextureSlot p_slot, const Vector4 &p_texel) { return select_channel(p_texel, parameters.textures[size_t(p_slot)].channel); };
+	const Vector4 metallic_texel = texel(TextureSlot::METALLIC);
+	const Vector4 roughness_texel = p_material.one_fetch ? metallic_texel : texel(TextureSlot::ROUGHNESS);
+	const float metallic = parameters.metallic * channel(TextureSlot::METALLIC, metallic_texel);
+	const float roughness = parameters.roughness * channel(TextureSlot::ROUGHNESS, roughness_texel);
 	return brdf::brdf_lobes(p_albedo, metallic, roughness, parameters.specular, parameters.specular_tint);
 }
 
