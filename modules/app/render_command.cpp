@@ -62,10 +62,15 @@ int report(ExitCode p_code, const Error &p_error) {
 void draw_frames(RenderSession &r_session, RenderingServer &r_server, RenderingDevice &r_device, const RenderOptions &p_options, RenderSummary &r_summary) {
 	ProgressLine progress(!p_options.quiet);
 	const uint32_t limit = p_options.frames != 0 ? p_options.frames : MAX_FRAMES_TO_CONVERGE;
+	// Only the last picture is kept, and light doesn't depend on pictures: the others are drawn only where somebody measures frames.
+	const bool every_picture = !p_options.stats.empty();
+	bool pictured = false;
 	while (r_summary.frames < limit) {
 		if (!p_options.reload_shaders.empty()) {
 			r_device.reload_shaders(p_options.reload_shaders);
 		}
+		pictured = every_picture || r_summary.frames + 1 == limit;
+		r_server.viewport_set_picture_enabled(r_session.viewport(), pictured);
 		r_session.draw_frame();
 		r_summary.frames++;
 		const FrameStats frame = r_server.get_frame_stats();
@@ -75,6 +80,10 @@ void draw_frames(RenderSession &r_session, RenderingServer &r_server, RenderingD
 			break;
 		}
 		progress.update(r_summary.frames, p_options.frames);
+	}
+	if (!pictured) {
+		r_server.viewport_set_picture_enabled(r_session.viewport(), true);
+		r_session.draw_frame();
 	}
 }
 

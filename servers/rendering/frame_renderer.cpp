@@ -39,6 +39,10 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	const ScreenTargets &targets = r_state.targets;
 	FrameSetup setup = make_frame_setup(p_scene, p_viewport, scenario, camera, r_world.scene);
 	setup.frame.gi_enabled = setup.environment->sdfgi.enabled ? 1 : 0;
+	if (!p_viewport.picture_enabled) {
+		draw_light(r_recorder, setup, r_world, r_state);
+		return;
+	}
 	if (r_state.drawn) {
 		setup.frame.views[0].previous_clip_from_world = r_state.previous_clip_from_world;
 	}
@@ -84,6 +88,16 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	r_state.previous_clip_from_world = setup.clip_from_world;
 	r_state.view_from_clip = glm::inverse(setup.clip_from_view);
 	r_state.drawn = true;
+}
+
+void FrameRenderer::draw_light(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, ViewportState &r_state) {
+	if (r_state.sky.update(p_setup.sky, assets.texture(p_setup.panorama))) {
+		r_state.sky.draw(r_recorder);
+	}
+	if (p_setup.frame.gi_enabled != 0) {
+		update_gi(r_recorder, p_setup, r_world, r_state);
+	}
+	frame_stats.lights += r_world.scene.lights().size();
 }
 
 void FrameRenderer::update_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state) {

@@ -33,6 +33,7 @@ private:
 	void draw_viewport(PassRecorder &r_recorder, const RenderScene &p_scene, const Viewport &p_viewport, World &r_world, ViewportState &r_state);
 	void update_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state);
 	void gather_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state);
+	void draw_light(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, ViewportState &r_state);
 	void draw_debug_view(PassRecorder &r_recorder, const std::string &p_view, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state);
 	void drop_stale(const RenderScene &p_scene);
 	SceneBindings scene_bindings(const World &p_world, const ViewportState &p_state) const;

@@ -330,6 +330,7 @@ struct Viewport {
 	uint32_t width = 0;
 	uint32_t height = 0;
 	std::string debug_view; // empty: the picture. "sdf", "albedo", …: see Sdfgi::debug_views()
+	bool picture_enabled = true; // false: frames advance the light only
 	bool aov = false; // keep the buffers that viewport_get_image needs besides colour
 };
 

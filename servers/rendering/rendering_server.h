@@ -88,6 +88,8 @@ public:
 	void viewport_set_size(ViewportRid p_viewport, uint32_t p_width, uint32_t p_height); // 1 to 16384 an axis, and the device's limit
 	void viewport_set_scenario(ViewportRid p_viewport, ScenarioRid p_scenario);
 	void viewport_attach_camera(ViewportRid p_viewport, CameraRid p_camera);
+	// False: draw() advances the world's indirect light for this viewport and leaves its picture, whose light needs many frames, for later.
+	void viewport_set_picture_enabled(ViewportRid p_viewport, bool p_enabled);
 	void viewport_set_debug_view(ViewportRid p_viewport, const std::string &p_view);
 	void viewport_set_aov(ViewportRid p_viewport, bool p_enabled);
 	// Waits for the GPU. COLOR_LINEAR: scene-referred, before exposure and tone mapping; COLOR_DISPLAY: tone-mapped, sRGB-encoded 0..1.

@@ -35,6 +35,12 @@ void RenderingServer::viewport_attach_camera(ViewportRid p_viewport, CameraRid p
 	viewport->camera = p_camera;
 }
 
+void RenderingServer::viewport_set_picture_enabled(ViewportRid p_viewport, bool p_enabled) {
+	Viewport *viewport = impl->scene.viewports.get(p_viewport);
+	ERR_FAIL_COND_MSG(viewport == nullptr, "no such viewport");
+	viewport->picture_enabled = p_enabled;
+}
+
 void RenderingServer::viewport_set_debug_view(ViewportRid p_viewport, const std::string &p_view) {
 	Viewport *viewport = impl->scene.viewports.get(p_viewport);
 	ERR_FAIL_COND_MSG(viewport == nullptr, "no such viewport");
