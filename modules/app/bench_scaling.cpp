@@ -92,7 +92,7 @@ ScalePoint measure(SpeedScene &r_scene, const SpeedPreset &p_preset, const Scale
 	point.gi_ms = gi_distribution(frames).median;
 	point.frame_ms = gpu_distribution(frames).median;
 	for (const PassRow &row : pass_rows(frames)) {
-		point.gather_ms += row.name == "sdfgi.gather_gi" ? row.ms.median : 0.0;
+		point.gather_ms += row.name.starts_with("sdfgi.gather") ? row.ms.median : 0.0;
 	}
 	return point;
 }

@@ -45,7 +45,7 @@ struct ScalePoint {
 	double x = 0;
 	double first_ms = 0; // GI in the frame that builds everything
 	double gi_ms = 0; // median of GI with a light that changes every frame
-	double gather_ms = 0; // … of sdfgi.gather_gi alone
+	double gather_ms = 0; // … of the passes called sdfgi.gather*
 	double frame_ms = 0; // … of everything
 	GiStats gi;
 };

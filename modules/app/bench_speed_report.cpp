@@ -166,7 +166,7 @@ void add_charts(const SpeedResult &p_result, HtmlReport &r_html) {
 	r_html.chart(frames);
 	for (size_t i = 0; i < p_result.scaling.size();) {
 		const std::string group = p_result.scaling[i].group;
-		ReportChart chart = { .title = "GI by " + group, .x_label = group, .y_label = "GPU ms", .log_x = true, .series = { { "all of GI" }, { "gather_gi" } } };
+		ReportChart chart = { .title = "GI by " + group, .x_label = group, .y_label = "GPU ms", .log_x = true, .series = { { "all of GI" }, { "of that gather" } } };
 		for (; i < p_result.scaling.size() && p_result.scaling[i].group == group; i++) {
 			const ScalePoint &point = p_result.scaling[i];
 			for (ReportSeries &series : chart.series) {
@@ -197,7 +197,7 @@ Status write_speed(const BenchOptions &p_options, const SpeedResult &p_result, c
 	tables.push_back(memory_table(p_result.memory));
 	tables.push_back(scaling_table(p_result));
 	HtmlReport html("Speed: what a frame costs", line);
-	html.paragraph(settled + " GI: the passes called sdfgi.* and gi_world.*; p95 and p99 are percentiles over the frames of a state. In the scaling table a light changes in every frame.");
+	html.paragraph(settled + " GI: the passes of sdfgi.* and gi_world.*; p95 and p99 are percentiles over the frames of a state. In the scaling table a light changes in every frame.");
 	for (const ReportTable &table : tables) {
 		std::printf("%s\n", table_text(table).c_str());
 		html.table(table);

@@ -37,7 +37,7 @@ Json memory_json(const MemoryReport &p_report) {
 }
 
 bool is_gi_pass(const std::string &p_name) {
-	return p_name.starts_with("sdfgi.") || p_name.starts_with("gi_world.");
+	return p_name.find("sdfgi.") != std::string::npos || p_name.find("gi_world.") != std::string::npos; // "clear sdfgi.statistics" too
 }
 
 void PassTimes::add(const std::vector<std::pair<std::string, double>> &p_frame) {
