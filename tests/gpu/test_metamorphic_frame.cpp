@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Whole frames with GI: what the camera's direction must not change.
+// Whole frames with GI: what the camera's direction and the contents of fresh memory must not change.
 #include "servers/rendering/rendering_server.h"
 #include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/scoped_environment.h"
 
 #include <doctest/doctest.h>
 
 using namespace lucent;
 using lucent::test::GpuFixture;
+using lucent::test::ScopedEnvironment;
 
 namespace {
 
@@ -94,9 +96,9 @@ struct Room {
 		const float c = std::cos(p_angle), s = std::sin(p_angle);
 		server.camera_set_transform(camera, { Basis(Vector3(c, 0, -s), Vector3(0, 1, 0), Vector3(s, 0, c)), Vector3(-0.5f, 0.0f, 1.5f) });
 	}
-	std::vector<float> draw() {
+	std::vector<float> draw(ViewportBuffer p_buffer = ViewportBuffer::COLOR_LINEAR) {
 		server.draw();
-		return server.viewport_get_image(viewport, ViewportBuffer::COLOR_LINEAR).values;
+		return server.viewport_get_image(viewport, p_buffer).values;
 	}
 };
 
@@ -131,6 +133,25 @@ TEST_CASE("metamorphic: a camera that turns in place after convergence changes n
 	CHECK(room.draw() == before);
 	CHECK(room.server.get_frame_stats().gi.frames == frames);
 	CHECK(room.server.get_frame_stats().gi.converged);
+}
+
+TEST_CASE("metamorphic: what fresh memory holds does not show") {
+	std::vector<float> linear, display;
+	for (const char *poison : { "ff", "00" }) {
+		const ScopedEnvironment environment("LUCENT_POISON", poison);
+		GpuFixture fixture;
+		Room room(fixture.device());
+		for (int frame = 0; frame < 100 && !room.server.get_frame_stats().gi.converged; frame++) {
+			room.server.draw();
+		}
+		const std::vector<float> picture = room.draw();
+		const std::vector<float> shown = room.server.viewport_get_image(room.viewport, ViewportBuffer::COLOR_DISPLAY).values;
+		CHECK(mean(picture) > 0.05); // and no NaN
+		CHECK((linear.empty() || picture == linear));
+		CHECK((display.empty() || shown == display));
+		linear = picture;
+		display = shown;
+	}
 }
 
 TEST_SUITE_END();

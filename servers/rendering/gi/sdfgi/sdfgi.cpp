@@ -170,6 +170,8 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	const bool relight = live.bounce_feedback != i.settings.bounce_feedback || live.read_sky_light != i.settings.read_sky_light;
 	if (i.world == nullptr || live != p_settings) {
 		i.create(p_settings);
+		r_recorder.clear_texture(i.radiance_atlas);
+		r_recorder.clear_texture(i.irradiance_atlas);
 	}
 	i.settings = p_settings;
 	i.sky = p_scene.sky_octahedral;
