@@ -99,12 +99,13 @@ ReportTable scaling_table(const SpeedResult &p_result) {
 	return table;
 }
 
-// By the debug name's first two parts, largest first.
+// By the debug name's first two parts without their numbers, largest first.
 ReportTable memory_table(const MemoryReport &p_report) {
 	std::vector<std::pair<uint64_t, std::string>> kinds;
 	for (const MemoryReport::Entry &entry : p_report.entries) {
 		const size_t first = entry.name.find('.');
-		const std::string name = first == std::string::npos ? entry.name : entry.name.substr(0, entry.name.find('.', first + 1));
+		std::string name = first == std::string::npos ? entry.name : entry.name.substr(0, entry.name.find('.', first + 1));
+		name.erase(name.find_last_not_of("0123456789") + 1);
 		const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto &p_kind) { return p_kind.second == name; });
 		if (found == kinds.end()) {
 			kinds.emplace_back(entry.bytes, name);
