@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "servers/rendering/gi/sdfgi/sdfgi_cascades.h"
 
+#include <algorithm>
+
 namespace lucent {
 
 Vector3i cascade_origin_cells(const Vector3 &p_camera_m, const Vector3 &p_cell_m, uint32_t p_grid_size, uint32_t p_step_cells, const Vector3i *p_old_origin_cells) {
@@ -21,18 +23,18 @@ Vector3i cascade_origin_cells(const Vector3 &p_camera_m, const Vector3 &p_cell_m
 }
 
 LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames) {
-	constexpr uint32_t SETS_OF_A_LENGTH = 4;
 	LightEpoch epoch;
 	uint32_t start = 0;
 	for (uint32_t length = 1; length < p_full_frames; length *= 2) {
-		if (p_frame < start + SETS_OF_A_LENGTH * length) {
+		const uint32_t sets = std::max(4 / length, 1u);
+		if (p_frame < start + sets * length) {
 			epoch.frames = length;
 			epoch.index += (p_frame - start) / length;
 			epoch.turn = (p_frame - start) % length;
 			return epoch;
 		}
-		start += SETS_OF_A_LENGTH * length;
-		epoch.index += SETS_OF_A_LENGTH;
+		start += sets * length;
+		epoch.index += sets;
 	}
 	epoch.frames = p_full_frames;
 	epoch.index += (p_frame - start) / p_full_frames;

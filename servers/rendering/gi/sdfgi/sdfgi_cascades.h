@@ -19,8 +19,8 @@ struct LightEpoch {
 	uint32_t turn = 0; // of them, done before
 };
 
-// The set that a frame (since the light was reset) belongs to. Light travels one bounce a set, so the first sets are short: one frame,
-// then two, four and eight, each length four times, until p_full_frames, a power of two.
+// The set that a frame (since the light was reset) belongs to. Light travels one bounce a set, so the first sets are short: four
+// of one frame, two of two, then one of each power of two below p_full_frames, itself a power of two.
 LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames);
 
 } // namespace lucent
