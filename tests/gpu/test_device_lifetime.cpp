@@ -2,6 +2,7 @@
 // What outlives a frame: memory, the pipeline cache, reloaded shaders, the choice of the device.
 #include "drivers/vulkan/vulkan_driver.h"
 #include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/scoped_environment.h"
 #include "tests/gpu/shaders/test_io.h"
 #include "tests/test_support.h"
 
@@ -19,26 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::GpuFixture;
-
-// Sets an environment variable for as long as it lives.
-class ScopedEnvironment {
-public:
-	ScopedEnvironment(const char *p_name, const std::string &p_value) :
-			name(p_name) {
-		const char *old = std::getenv(p_name);
-		had_value = old != nullptr;
-		old_value = had_value ? old : "";
-		setenv(p_name, p_value.c_str(), 1);
-	}
-	~ScopedEnvironment() { had_value ? setenv(name, old_value.c_str(), 1) : unsetenv(name); }
-	ScopedEnvironment(const ScopedEnvironment &) = delete;
-	ScopedEnvironment &operator=(const ScopedEnvironment &) = delete;
-
-private:
-	const char *name;
-	bool had_value = false;
-	std::string old_value;
-};
+using test::ScopedEnvironment;
 
 class ScopedFolder {
 public:

@@ -26,6 +26,8 @@ layout(set = 0, binding = WORLD_BINDING(GI_PROBE_SAMPLER)) uniform sampler gi_pr
 #define GI_DIFFUSE_ROUGHNESS 0.8
 // Roughness that the prepass writes for surfaces without a specular lobe: no radiance is looked up.
 #define GI_NO_SPECULAR 1.5
+// Thirds of a cell off a record's plane within which a point counts as on it.
+#define PLAIN_OFF_PLANE 0.25
 
 struct GiSample {
 	vec3 irradiance; // / pi
@@ -61,12 +63,14 @@ struct CellFootprint {
 	ivec3 base;
 	vec3 f; // the point's place between the centres
 	WorldCell cells[8]; // x + 2 y + 4 z; all bits 0: nothing stored
-	bool is_plain; // surfaces of one face direction only, all flat: nothing stands between two points on them
+	bool is_plain; // surfaces of one face direction only, all flat: nothing stands between two points of one plane
 };
 CellFootprint footprint;
+uint footprint_cascade = WORLD_MAX_CASCADES; // none yet
 
 void find_footprint(vec3 position_m, uint cascade) {
 	vec3 p = position_m / world.cascades[cascade].cell_m - 0.5;
+	footprint_cascade = cascade;
 	footprint.base = ivec3(floor(p));
 	footprint.f = p - vec3(footprint.base);
 	uint all_faces = 0u;
@@ -83,6 +87,9 @@ void find_footprint(vec3 position_m, uint cascade) {
 }
 
 WorldCell cell_on_way(uint cascade, ivec3 cell) {
+	if (cascade != footprint_cascade) {
+		return load_cell(cascade, cell);
+	}
 	ivec3 local = cell - footprint.base;
 	if (all(greaterThanEqual(local, ivec3(0))) && all(lessThan(local, ivec3(2)))) {
 		return footprint.cells[local.x + 2 * local.y + 4 * local.z];
@@ -119,7 +126,7 @@ vec4 sample_records(GiQuery query, uint cascade) {
 			if (weight < 0.002) {
 				continue;
 			}
-			if (!footprint.is_plain) {
+			if (!footprint.is_plain || abs(off_plane) > PLAIN_OFF_PLANE) {
 				bool seen = query.has_start ? short_way_is_free(cascade, query.start_m, record_start_m(record)) : !cell_is_split(packed_records & 63u);
 				if (!seen) {
 					continue;
