@@ -73,7 +73,7 @@ ViewportImage FrameRenderer::read_back(ViewportRid p_viewport, ViewportBuffer p_
 		case ViewportBuffer::NORMAL:
 			return read_half(device, targets.normal_roughness, 4);
 		case ViewportBuffer::DEPTH:
-			return read_depth(device, targets.depth, state.view_from_clip);
+			return read_depth(device, targets.depth, glm::inverse(state.previous_clip_from_view));
 		case ViewportBuffer::MOTION:
 			return read_half(device, targets.motion, 2);
 	}

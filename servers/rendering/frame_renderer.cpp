@@ -32,9 +32,24 @@ FrameRenderer::FrameRenderer(RenderingDevice &p_device) :
 		device(p_device), assets(p_device) {}
 FrameRenderer::~FrameRenderer() = default;
 
+// Chooses the world's origin and brings the device's copy of the scene up to date.
+void FrameRenderer::place_world(const RenderScene &p_scene, const Viewport &p_viewport, World &r_world) {
+	if (!r_world.placed) {
+		const Camera &camera = *p_scene.cameras.get(p_viewport.camera);
+		const Environment &environment = find_environment(p_scene, *p_scene.scenarios.get(p_viewport.scenario), camera);
+		if (r_world.origin.follow(camera.transform.origin, environment.sdfgi)) {
+			r_world.gi.reset();
+		}
+		r_world.placed = true;
+	}
+	r_world.scene.update(p_scene, assets, r_world.origin);
+}
+
 void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p_scene, const Viewport &p_viewport, World &r_world, ViewportState &r_state) {
 	const Scenario &scenario = *p_scene.scenarios.get(p_viewport.scenario);
-	const Camera &camera = *p_scene.cameras.get(p_viewport.camera);
+	const Camera &world_camera = *p_scene.cameras.get(p_viewport.camera);
+	Camera camera = world_camera;
+	camera.transform = r_world.origin.render_from_world(world_camera.transform);
 	r_state.targets.resize(device, p_viewport.width, p_viewport.height, p_viewport.aov);
 	const ScreenTargets &targets = r_state.targets;
 	FrameSetup setup = make_frame_setup(p_scene, p_viewport, scenario, camera, r_world.scene);
@@ -44,7 +59,7 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 		return;
 	}
 	if (r_state.drawn) {
-		setup.frame.views[0].previous_clip_from_world = r_state.previous_clip_from_world;
+		setup.frame.views[0].previous_clip_from_world = r_state.previous_clip_from_view * r_world.origin.render_from_world(r_state.previous_camera).affine_inverse().to_matrix();
 	}
 
 	std::vector<uint32_t> instances;
@@ -85,8 +100,8 @@ void FrameRenderer::draw_viewport(PassRecorder &r_recorder, const RenderScene &p
 	count_draws(opaque_batches, frame_stats);
 	count_draws(transparent_batches, frame_stats);
 	frame_stats.lights += r_world.scene.lights().size();
-	r_state.previous_clip_from_world = setup.clip_from_world;
-	r_state.view_from_clip = glm::inverse(setup.clip_from_view);
+	r_state.previous_camera = world_camera.transform;
+	r_state.previous_clip_from_view = setup.clip_from_view;
 	r_state.drawn = true;
 }
 
@@ -149,12 +164,13 @@ void FrameRenderer::draw(RenderScene &r_scene) {
 			viewport_rid = p_rid;
 			state = std::make_unique<ViewportState>(device);
 		}
-		world->scene.update(r_scene, assets);
+		place_world(r_scene, r_viewport, *world);
 		draw_viewport(recorder, r_scene, r_viewport, *world, *state);
 		scenario->dirty.clear();
 	});
 	device.end_frame();
 	for (auto &[index, entry] : worlds) {
+		entry.second->placed = false;
 		if (entry.second->gi != nullptr) {
 			entry.second->gi->after_frame();
 			frame_stats.gi = entry.second->gi->stats();

@@ -25,11 +25,14 @@ public:
 
 private:
 	struct World {
+		RenderOrigin origin;
+		bool placed = false; // the origin, in this frame
 		GpuScene scene;
 		std::shared_ptr<Sdfgi> gi;
 		World(RenderingDevice &p_device, ScenarioRid p_scenario) :
 				scene(p_device, p_scenario) {}
 	};
+	void place_world(const RenderScene &p_scene, const Viewport &p_viewport, World &r_world);
 	void draw_viewport(PassRecorder &r_recorder, const RenderScene &p_scene, const Viewport &p_viewport, World &r_world, ViewportState &r_state);
 	void update_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state);
 	void gather_gi(PassRecorder &r_recorder, const FrameSetup &p_setup, World &r_world, const ViewportState &p_state);

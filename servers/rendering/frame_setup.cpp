@@ -126,7 +126,6 @@ const Environment &find_environment(const RenderScene &p_scene, const Scenario &
 
 FrameSetup make_frame_setup(const RenderScene &p_scene, const Viewport &p_viewport, const Scenario &p_scenario, const Camera &p_camera, const GpuScene &p_gpu_scene) {
 	FrameSetup setup;
-	setup.camera = &p_camera;
 	setup.environment = &find_environment(p_scene, p_scenario, p_camera);
 	setup.aspect = float(p_viewport.width) / float(p_viewport.height);
 	setup.clip_from_view = camera_projection(p_camera, setup.aspect);

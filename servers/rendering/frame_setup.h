@@ -14,7 +14,6 @@ namespace lucent {
 const Environment &find_environment(const RenderScene &p_scene, const Scenario &p_scenario, const Camera &p_camera);
 
 struct FrameSetup {
-	const Camera *camera = nullptr;
 	const Environment *environment = nullptr;
 	float aspect = 1.0f;
 	Projection clip_from_view{ 1.0f };
@@ -27,6 +26,7 @@ struct FrameSetup {
 	uint32_t cluster_mask_count = 0; // 0: no light but the sun
 };
 
+// p_camera: relative to the scene's RenderOrigin.
 FrameSetup make_frame_setup(const RenderScene &p_scene, const Viewport &p_viewport, const Scenario &p_scenario, const Camera &p_camera, const GpuScene &p_gpu_scene);
 
 } // namespace lucent

@@ -74,12 +74,13 @@ auto draw_order(const SceneDraw &p_draw) {
 
 void GpuScene::collect_instance(const RenderScene &p_scene, const GpuAssets &p_assets, const Instance &p_instance, const Mesh &p_mesh) {
 	shader::InstanceData data{};
-	store_rows(p_instance.transform, data.world_from_local);
-	store_rows(p_instance.previous_transform, data.previous_world_from_local);
-	const bool mirrored = glm::determinant(p_instance.transform.basis) < 0.0f;
+	const Transform3D transform = render_origin.render_from_world(p_instance.transform);
+	store_rows(transform, data.world_from_local);
+	store_rows(render_origin.render_from_world(p_instance.previous_transform), data.previous_world_from_local);
+	const bool mirrored = glm::determinant(transform.basis) < 0.0f;
 	data.flags = mirrored ? INSTANCE_FLAG_MIRRORED : 0;
 	data.transparency = p_instance.transparency;
-	const AABB box = p_mesh.aabb.xform(p_instance.transform);
+	const AABB box = p_mesh.aabb.xform(transform);
 	scene_bounds.merge_with(box);
 	const Material default_material;
 	for (uint32_t i = 0; i < p_mesh.surfaces.size(); i++) {
@@ -118,7 +119,7 @@ void GpuScene::collect_lights(const RenderScene &p_scene) {
 			if (light == nullptr || p_instance.scenario != scenario_rid || !p_instance.visible) {
 				return;
 			}
-			const shader::LightData data = light_data(*light, p_instance.transform);
+			const shader::LightData data = light_data(*light, render_origin.render_from_world(p_instance.transform));
 			if (((data.flags & LIGHT_FLAG_GI) != 0) == gi) {
 				light_values.push_back(data);
 				light_ids.push_back(p_instance.light);
@@ -147,11 +148,12 @@ void GpuScene::collect(const RenderScene &p_scene, const GpuAssets &p_assets) {
 	collect_lights(p_scene);
 }
 
-void GpuScene::update(const RenderScene &p_scene, const GpuAssets &p_assets) {
+void GpuScene::update(const RenderScene &p_scene, const GpuAssets &p_assets, const RenderOrigin &p_origin) {
 	const Scenario *scenario = p_scene.scenarios.get(scenario_rid);
-	if (scenario == nullptr || scene_version == p_scene.version) {
+	if (scenario == nullptr || (scene_version == p_scene.version && render_origin.position_m() == p_origin.position_m())) {
 		return;
 	}
+	render_origin = p_origin;
 	scene_version = p_scene.version;
 	collect(p_scene, p_assets);
 	const bool remade = instances_buffer.reserve(device, instance_values.size() * sizeof(shader::InstanceData), BUFFER_STORAGE, "scene.instances");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The device's copy of a RenderScene: geometry arenas, instances, materials, lights. Uploads only what changed.
+// The device's copy of a RenderScene: geometry arenas, instances, materials, lights. Uploads only what changed. All positions are relative
+// to the scenario's RenderOrigin.
 
 #include "servers/rendering/gpu_assets.h"
+#include "servers/rendering/render_origin.h"
 #include "servers/rendering/shaders/scene_io.h"
 
 #include <vector>
@@ -56,9 +58,10 @@ public:
 	GpuScene(RenderingDevice &p_device, ScenarioRid p_scenario) :
 			device(p_device), scenario_rid(p_scenario) {}
 	// The assets must have been updated first.
-	void update(const RenderScene &p_scene, const GpuAssets &p_assets);
+	void update(const RenderScene &p_scene, const GpuAssets &p_assets, const RenderOrigin &p_origin);
 
 	ScenarioRid scenario() const { return scenario_rid; }
+	const RenderOrigin &origin() const { return render_origin; }
 	// Sorted by state, material and geometry, so that equal neighbours become one instanced draw.
 	const std::vector<SceneDraw> &draws() const { return scene_draws; }
 	const AABB &bounds() const { return scene_bounds; } // of what is drawn or casts shadows
@@ -78,6 +81,7 @@ private:
 	RenderingDevice &device;
 	ScenarioRid scenario_rid;
 	uint64_t scene_version = 0;
+	RenderOrigin render_origin;
 	std::vector<SceneDraw> scene_draws;
 	AABB scene_bounds;
 	std::vector<shader::InstanceData> instance_values, uploaded_instances;

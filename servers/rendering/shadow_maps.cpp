@@ -201,7 +201,7 @@ void ShadowMaps::plan(GpuScene &r_scene, const RenderScene &p_scene, const Camer
 	}
 	for (ShadowJob &job : planned) {
 		DrawnLayer &drawn = (job.map == sun_texture.handle() ? drawn_sun : drawn_light)[job.layer];
-		const DrawnLayer now = { job.clip_from_world, p_geometry_version };
+		const DrawnLayer now = { job.clip_from_world, r_scene.origin().position_m(), p_geometry_version };
 		if (drawn != now) {
 			drawn = now;
 			job.batches = cull_shadow_casters(r_scene, job.clip_from_world, r_draw_instances);

@@ -23,6 +23,7 @@ public:
 			device(p_device) {}
 
 	// Sets the scene's shadow indices, makes the maps that are missing and lists the ones to draw (cleared to 1, standard z).
+	// p_camera: relative to the scene's RenderOrigin.
 	void plan(GpuScene &r_scene, const RenderScene &p_scene, const Camera &p_camera, float p_aspect, uint64_t p_geometry_version, std::vector<uint32_t> &r_draw_instances);
 
 	const std::vector<ShadowJob> &jobs() const { return draw_jobs; }
@@ -33,6 +34,7 @@ public:
 private:
 	struct DrawnLayer {
 		Projection clip_from_world{ 0.0f };
+		Vector3 origin_m{ 0.0f }; // the matrix may be the same about another origin
 		uint64_t geometry_version = 0;
 		bool operator==(const DrawnLayer &) const = default;
 	};

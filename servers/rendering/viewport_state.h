@@ -54,8 +54,9 @@ struct ViewportState {
 	OwnedBuffer frame_buffer;
 	GrowingBuffer draw_instances, cluster_masks;
 	std::vector<uint32_t> uploaded_instances;
-	Projection previous_clip_from_world{ 1.0f };
-	Projection view_from_clip{ 1.0f }; // of the last drawn frame
+	// Of the last drawn frame.
+	Transform3D previous_camera; // world
+	Projection previous_clip_from_view{ 1.0f };
 	bool drawn = false;
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Whole frames with GI: what the camera's direction and the contents of fresh memory must not change.
+// Whole frames: what the camera's direction, the place in the world and the contents of fresh memory must not change.
 #include "servers/rendering/rendering_server.h"
 #include "tests/gpu/gpu_fixture.h"
 #include "tests/gpu/scoped_environment.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
 
 using namespace lucent;
 using lucent::test::GpuFixture;
@@ -39,18 +41,21 @@ MeshSurface box(const Vector3 &p_half, bool p_inward, MaterialRid p_material) {
 struct Room {
 	RenderingServer server;
 	ScenarioRid scenario;
+	EnvironmentRid environment;
 	CameraRid camera;
 	ViewportRid viewport;
+	Vector3 shift_m;
 
-	explicit Room(RenderingDevice &p_device) :
-			server(&p_device) {
+	explicit Room(RenderingDevice &p_device, const Vector3 &p_shift_m = Vector3(0.0f)) :
+			server(&p_device), shift_m(p_shift_m) {
 		scenario = server.scenario_create();
-		const EnvironmentRid environment = server.environment_create();
+		environment = server.environment_create();
 		SdfgiSettings settings;
 		settings.enabled = true;
 		settings.cascades = 2;
 		settings.grid_size_cells = 64;
-		settings.min_cell_size_m = 0.25f;
+		settings.min_cell_size_m = 0.25f; // all sizes are exact
+		settings.y_scale = SdfgiYScale::SCALE_100_PERCENT;
 		settings.frames_to_converge = 2;
 		server.environment_set_sdfgi(environment, settings);
 		server.environment_set_background(environment, BackgroundMode::COLOR);
@@ -64,10 +69,7 @@ struct Room {
 		light.shadow_enabled = true;
 		const LightRid lamp = server.omni_light_create();
 		server.light_set(lamp, light);
-		const InstanceRid instance = server.instance_create();
-		server.instance_set_base(instance, lamp);
-		server.instance_set_scenario(instance, scenario);
-		server.instance_set_transform(instance, { Basis(1.0f), Vector3(1.5f, 1.0f, 1.0f) });
+		add(lamp, { Basis(1.0f), shift_m + Vector3(1.5f, 1.0f, 1.0f) });
 		camera = server.camera_create();
 		Camera parameters;
 		parameters.fov_degrees = 75.0f;
@@ -87,20 +89,34 @@ struct Room {
 		server.material_set(rid, material);
 		const MeshRid mesh = server.mesh_create();
 		server.mesh_add_surface(mesh, box(p_half, p_inward, rid));
+		add(mesh, { Basis(1.0f), shift_m + p_origin });
+	}
+	template <typename BaseRid>
+	void add(BaseRid p_base, const Transform3D &p_transform) {
 		const InstanceRid instance = server.instance_create();
-		server.instance_set_base(instance, mesh);
+		server.instance_set_base(instance, p_base);
 		server.instance_set_scenario(instance, scenario);
-		server.instance_set_transform(instance, { Basis(1.0f), p_origin });
+		server.instance_set_transform(instance, p_transform);
 	}
 	void turn(float p_angle) {
 		const float c = std::cos(p_angle), s = std::sin(p_angle);
-		server.camera_set_transform(camera, { Basis(Vector3(c, 0, -s), Vector3(0, 1, 0), Vector3(s, 0, c)), Vector3(-0.5f, 0.0f, 1.5f) });
+		server.camera_set_transform(camera, { Basis(Vector3(c, 0, -s), Vector3(0, 1, 0), Vector3(s, 0, c)), shift_m + Vector3(-0.5f, 0.0f, 1.5f) });
 	}
 	std::vector<float> draw(ViewportBuffer p_buffer = ViewportBuffer::COLOR_LINEAR) {
 		server.draw();
 		return server.viewport_get_image(viewport, p_buffer).values;
 	}
 };
+
+// Picture and indirect light after two frames: what holds for settled light holds on the way.
+std::vector<float> light_of(Room &r_room) {
+	r_room.server.viewport_set_aov(r_room.viewport, true);
+	r_room.server.draw();
+	std::vector<float> values = r_room.draw();
+	const std::vector<float> indirect = r_room.server.viewport_get_image(r_room.viewport, ViewportBuffer::INDIRECT_DIFFUSE).values;
+	values.insert(values.end(), indirect.begin(), indirect.end());
+	return values;
+}
 
 double mean(const std::vector<float> &p_values) {
 	double sum = 0.0;
@@ -133,6 +149,57 @@ TEST_CASE("metamorphic: a camera that turns in place after convergence changes n
 	CHECK(room.draw() == before);
 	CHECK(room.server.get_frame_stats().gi.frames == frames);
 	CHECK(room.server.get_frame_stats().gi.converged);
+}
+
+TEST_CASE("metamorphic: scene and camera shifted by multiples of the coarsest probe spacing: the same bits") {
+	constexpr float COARSEST_PROBE_SPACING_M = 4.0f;
+	GpuFixture fixture;
+	std::vector<float> before;
+	{
+		Room room(fixture.device());
+		before = light_of(room);
+		CHECK(mean(before) > 0.05);
+	}
+	for (const Vector3 &steps : { Vector3(1, -2, 3), Vector3(8, 0, 0) }) {
+		Room room(fixture.device(), steps * COARSEST_PROBE_SPACING_M);
+		CHECK(light_of(room) == before);
+	}
+	// So far that floats are 1/64 m apart, and after a frame near the world's origin.
+	Room room(fixture.device(), Vector3(32768, 8192, -32767) * COARSEST_PROBE_SPACING_M);
+	room.server.camera_set_transform(room.camera, { Basis(1.0f), Vector3(0.0f, 0.0f, 1.0f) });
+	room.server.draw();
+	room.turn(0.0f);
+	CHECK(light_of(room) == before);
+	const std::vector<float> motion = room.draw(ViewportBuffer::MOTION);
+	CHECK(std::all_of(motion.begin(), motion.end(), [](float p_value) { return p_value == 0.0f; }));
+}
+
+TEST_CASE("metamorphic: a camera that jumps to a distant part of the scene sees its lamps and shadows") {
+	GpuFixture fixture;
+	constexpr float FAR_M = 131072.0f;
+	std::vector<float> pictures[2];
+	for (const bool jump : { false, true }) {
+		Room room(fixture.device(), Vector3(FAR_M, 0.0f, 0.0f));
+		room.server.environment_set_sdfgi(room.environment, SdfgiSettings());
+		// Straight down: about either origin the sun looks through the same matrix.
+		const LightRid sun = room.server.directional_light_create();
+		Light light;
+		light.shadow_enabled = true;
+		room.server.light_set(sun, light);
+		room.add(sun, { Basis(Vector3(1, 0, 0), Vector3(0, 0, -1), Vector3(0, 1, 0)), Vector3(0.0f) });
+		// A floor here and there, the room's block and lamps only there.
+		room.shift_m = Vector3(0.0f);
+		room.add_box(Vector3(4.0f, 0.25f, 4.0f), false, Vector3(0.5f), 0.0f, Vector3(0.0f, -2.0f, 0.0f));
+		if (jump) {
+			room.turn(0.0f);
+			room.server.draw();
+		}
+		room.shift_m = Vector3(FAR_M, 0.0f, 0.0f);
+		room.turn(0.0f);
+		pictures[jump] = room.draw();
+	}
+	CHECK(mean(pictures[0]) > 0.05);
+	CHECK(pictures[0] == pictures[1]);
 }
 
 TEST_CASE("metamorphic: what fresh memory holds does not show") {
