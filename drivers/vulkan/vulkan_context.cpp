@@ -82,7 +82,10 @@ DeviceInfo describe(VkPhysicalDevice p_device, const VulkanFeatures &p_features,
 	info.subgroup_size = v11.subgroupSize;
 	info.timestamps = p_timestamp_bits != 0 && core.limits.timestampPeriod > 0.0f;
 	info.depth_clamp = p_features.core.features.depthClamp;
-	info.max_anisotropy = p_features.core.features.samplerAnisotropy ? core.limits.maxSamplerAnisotropy : 1.0f;
+	// llvmpipe visits every texel in the box of a pixel's footprint: near a horizon, and in the lanes outside a triangle, that is the
+	// whole texture or far more, and a frame takes minutes.
+	const bool anisotropic = p_features.core.features.samplerAnisotropy && v12.driverID != VK_DRIVER_ID_MESA_LLVMPIPE;
+	info.max_anisotropy = anisotropic ? core.limits.maxSamplerAnisotropy : 1.0f;
 	info.max_texture_2d_texels = core.limits.maxImageDimension2D;
 	info.max_storage_buffer_bytes = core.limits.maxStorageBufferRange;
 	info.optional_features = p_features.optional_names();
