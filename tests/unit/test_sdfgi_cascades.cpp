@@ -29,22 +29,3 @@ TEST_CASE("a cascade stays while the camera moves less than one probe") {
 	// Back across the same border: no toggling.
 	CHECK(cascade_origin_cells(Vector3(1.5f, 0.0f, 0.0f), cell, 128, 8, &moved) == moved);
 }
-
-TEST_CASE("sets of rays follow one another without a gap and grow to the full length") {
-	LightEpoch last = light_epoch(0, 8);
-	CHECK(last.index == 0);
-	CHECK(last.frames == 1);
-	for (uint32_t frame = 1; frame < 200; frame++) {
-		const LightEpoch epoch = light_epoch(frame, 8);
-		CHECK(epoch.turn < epoch.frames);
-		if (epoch.index == last.index) {
-			CHECK(epoch.turn == last.turn + 1);
-		} else {
-			CHECK(epoch.index == last.index + 1);
-			CHECK(last.turn == last.frames - 1);
-			CHECK(epoch.turn == 0);
-		}
-		last = epoch;
-	}
-	CHECK(last.frames == 8);
-}

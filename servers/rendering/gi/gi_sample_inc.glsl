@@ -28,6 +28,7 @@ layout(set = 0, binding = WORLD_BINDING(GI_PROBE_SAMPLER)) uniform sampler gi_pr
 #define GI_NO_SPECULAR 1.5
 // Thirds of a cell off a record's plane within which a point counts as on it.
 #define PLAIN_OFF_PLANE 0.25
+#define MIN_WEIGHT 0.002 // of a record, less counts as none
 
 struct GiSample {
 	vec3 irradiance; // / pi
@@ -97,12 +98,21 @@ WorldCell cell_on_way(uint cascade, ivec3 cell) {
 	return load_cell(cascade, cell);
 }
 
-// Irradiance from the records of the 2 x 2 x 2 cells whose centres surround the point. w: how much of it answered.
-vec4 sample_records(GiQuery query, uint cascade) {
+// Records that may answer, by weight; at most this many, the first found.
+#define MAX_CANDIDATES 12u
+
+struct RecordCandidates {
+	uint count;
+	uint indices[MAX_CANDIDATES]; // with CANDIDATE_SEEN where no way need be walked
+	float weights[MAX_CANDIDATES];
+};
+#define CANDIDATE_SEEN 0x80000000u
+
+RecordCandidates find_candidates(GiQuery query, uint cascade) {
 	find_footprint(query.position_m, cascade);
+	RecordCandidates found;
+	found.count = 0u;
 	vec3 n = query.normal;
-	vec3 sum = vec3(0.0);
-	float weight_sum = 0.0;
 	uint end = record_end(cascade);
 	float cell_along_normal = 4.0 * sub_voxel_along_m(cascade, n);
 	for (uint i = 0u; i < 8u; i++) {
@@ -115,7 +125,7 @@ vec4 sample_records(GiQuery query, uint cascade) {
 			continue;
 		}
 		uint index = cell_first_record(packed_records);
-		for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
+		for (uint faces = packed_records & 63u; faces != 0u && index < end && found.count < MAX_CANDIDATES; faces &= faces - 1u, index++) {
 			WorldRecord record = world_records[index];
 			float facing = dot(n, record_normal(record));
 			if (facing < 0.5 || !record_has_start(record)) {
@@ -123,17 +133,36 @@ vec4 sample_records(GiQuery query, uint cascade) {
 			}
 			float off_plane = dot(query.position_m - record_position_m(record), n) / cell_along_normal * 3.0;
 			float weight = cell_weight * (facing - 0.45) * exp(-off_plane * off_plane);
-			if (weight < 0.002) {
+			if (weight < MIN_WEIGHT) {
 				continue;
 			}
-			if (!footprint.is_plain || abs(off_plane) > PLAIN_OFF_PLANE) {
-				bool seen = query.has_start ? short_way_is_free(cascade, query.start_m, record_start_m(record)) : !cell_is_split(packed_records & 63u);
-				if (!seen) {
+			bool seen = footprint.is_plain && abs(off_plane) <= PLAIN_OFF_PLANE;
+			if (!seen && !query.has_start) {
+				if (cell_is_split(packed_records & 63u)) {
 					continue;
 				}
+				seen = true;
 			}
-			sum += weight * vec4_from_half4(world_record_light[index].zw).rgb;
-			weight_sum += weight;
+			found.indices[found.count] = index | (seen ? CANDIDATE_SEEN : 0u);
+			found.weights[found.count] = weight;
+			found.count++;
+		}
+	}
+	return found;
+}
+
+// Irradiance from the records of the 2 x 2 x 2 cells whose centres surround the point. w: how much of it answered. The ways are walked
+// in a loop of their own, so that a GPU's lanes walk theirs at the same time.
+vec4 sample_records(GiQuery query, uint cascade) {
+	RecordCandidates found = find_candidates(query, cascade);
+	vec3 sum = vec3(0.0);
+	float weight_sum = 0.0;
+	for (uint i = 0u; i < found.count; i++) {
+		uint index = found.indices[i] & ~CANDIDATE_SEEN;
+		bool seen = (found.indices[i] & CANDIDATE_SEEN) != 0u || short_way_is_free(cascade, query.start_m, record_start_m(world_records[index]));
+		if (seen) {
+			sum += found.weights[i] * vec4_from_half4(world_record_light[index].zw).rgb;
+			weight_sum += found.weights[i];
 		}
 	}
 	return weight_sum > 0.0 ? vec4(sum / weight_sum, clamp(weight_sum * 20.0, 0.0, 1.0)) : vec4(0.0);

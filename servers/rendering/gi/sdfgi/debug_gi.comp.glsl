@@ -35,7 +35,7 @@ vec3 view_of_hit(WorldHit hit, vec3 direction) {
 		return vec3(1.0, 0.0, 1.0);
 	}
 	if (constants.view == DEBUG_VIEW_RADIANCE) {
-		return hit_radiance(hit, direction, 1.0, true);
+		return hit_radiance(hit, direction);
 	}
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
@@ -47,7 +47,7 @@ vec3 view_of_hit(WorldHit hit, vec3 direction) {
 		float weight = max(-dot(record_normal(record), direction), 0.0);
 		vec3 value = color_from_unorm111110(record.albedo);
 		if (constants.view == DEBUG_VIEW_LIGHT) {
-			value = vec4_from_half4(world_record_light[index].xy).rgb;
+			value = vec4_from_half4(world_record_light[index].xy).rgb / max(value, vec3(0.01));
 		} else if (constants.view == DEBUG_VIEW_EMISSION) {
 			value = color_from_rgb9e5(record.emission);
 		} else if (constants.view == DEBUG_VIEW_NORMALS) {
@@ -109,7 +109,7 @@ void main() {
 	uint cascade = finest_cascade(constants.camera_m);
 	WorldHit hit = trace_world(constants.camera_m, direction, 1e6, cascade);
 	if (constants.view == DEBUG_VIEW_PROBES) {
-		color = hit.hit ? 0.2 * hit_radiance(hit, direction, 1.0, false) : vec3(0.0);
+		color = hit.hit ? 0.2 * hit_radiance(hit, direction) : vec3(0.0);
 		vec4 spheres = probe_spheres(0u, constants.camera_m, direction, hit.hit ? hit.t_m + 0.2 : 100.0);
 		color = spheres.w < (hit.hit ? hit.t_m + 0.2 : 100.0) ? spheres.rgb : color;
 	} else if (constants.view == DEBUG_VIEW_OCCLUSION) {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Rays to emissive records, for light_records, which declares `emitters`, `emitter_count` and `constants`.
+// Rays to emissive records, for trace_records, which declares `emitters`, `emitter_count` and `constants`.
 #ifndef EMITTER_SAMPLE_INC
 #define EMITTER_SAMPLE_INC
-#include "servers/rendering/gi/world/surface_light_inc.glsl"
-#include "servers/rendering/shaders/sampling_inc.glsl"
+#include "servers/rendering/gi/sdfgi/record_rays_inc.glsl"
 
 #define NEAR_EMITTERS_CELLS 3.0
-
-struct LightRay {
-	vec3 direction;
-	float t_max_m;
-	vec3 light; // irradiance / pi if nothing is in the way
-};
 
 // A point on an emitter: a column of its face with surface in it.
 vec3 emitter_point_m(WorldRecord record, vec2 u) {
@@ -94,6 +87,9 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 	kept.ray.direction = normal;
 	kept.ray.t_max_m = 0.0;
 	float sum = 0.0;
+	if (emitter_count == 0u) {
+		return kept;
+	}
 	const uint CANDIDATES = 2u;
 	for (uint i = 0u; i < CANDIDATES; i++) {
 		float pick = r2_point(index * CANDIDATES + i, seed).x;

@@ -14,7 +14,7 @@ vec3 traced_reflection(vec3 position_m, vec3 normal, vec3 view) {
 	find_query_start(query, cascade);
 	vec3 direction = reflect(-view, normal);
 	WorldHit hit = trace_world(query.start_m, direction, 1e6, cascade);
-	return hit.hit ? hit_radiance(hit, direction, 1.0, true) : world_sky_radiance(direction);
+	return hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);
 }
 
 void main() {

@@ -13,9 +13,13 @@ namespace {
 
 constexpr uint32_t PROBE_TILES_A_ROW = 256;
 constexpr uint32_t PROBE_AVERAGE_VISITS = 8;
-// Light is settled when fewer than this share of the lit records moved by over 2 % in an epoch, or after this many epochs.
-constexpr double SETTLED_SHARE = 0.02;
-constexpr uint32_t MAX_EPOCHS = 24;
+// Light is settled when fewer than this share of the lit records moved by over SETTLED_CHANGE in a frame, or after this many frames.
+constexpr double SETTLED_SHARE = 0.01;
+constexpr uint32_t MAX_FRAMES = 400;
+constexpr uint32_t CHECK_PERIOD_FRAMES = 4; // each check waits for the device
+// After a change the first frames' bounces are missing: the probes start their means anew after this many.
+constexpr uint32_t PROBE_RESTART_FRAMES = 8;
+constexpr uint32_t PROBE_LEAST_VISITS = 5; // of each texel, before the light counts as settled
 
 struct DebugView {
 	const char *name;
@@ -36,6 +40,8 @@ struct Sdfgi::Impl {
 	OwnedBuffer probe_places;
 	OwnedBuffer probe_list;
 	OwnedBuffer statistics;
+	OwnedBuffer ray_cache;
+	uint32_t ray_cache_words = 0;
 	OwnedBuffer ray_pixels; // of the largest picture so far
 	uint32_t ray_pixel_capacity = 0;
 	OwnedTexture radiance_atlas;
@@ -48,10 +54,14 @@ struct Sdfgi::Impl {
 	TextureHandle sky;
 	BufferHandle lights;
 	uint32_t light_count = 0;
-	uint32_t frame = 0; // since the light was reset
-	uint32_t full_epochs = 0; // since then
+	uint32_t frame = 0; // since anything changed
+	uint32_t turns_done = 0; // by trace_records since the geometry changed
+	uint32_t lamp_turns_done = 0; // by light_lamps since the lamps changed
 	bool converged = false;
-	bool ends_epoch = false; // the frame that was last recorded
+	uint64_t peak_rays = 0; // in a frame, since anything changed
+	// Of the frame that was last recorded:
+	bool checks_light = false; // its counts are to be read
+	bool may_settle = false; // it traced no more than the probes' rays, and these have been round often enough
 	GiStats stats;
 
 	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
@@ -60,6 +70,7 @@ struct Sdfgi::Impl {
 	bool place_cascades(const Vector3 &p_camera_m, std::vector<uint32_t> &r_moved);
 	void upload_probe_params(PassRecorder &r_recorder, const Vector3 &p_camera_m);
 	void light_frame(PassRecorder &r_recorder);
+	void restart(bool p_geometry);
 };
 
 Sdfgi::Sdfgi(RenderingDevice &p_device) :
@@ -79,6 +90,8 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
 	probe_list = device.create_buffer({ .size_bytes = uint64_t(settings.cascades) * (PROBE_LIST_HEADER_WORDS + probes_in_cascade()) * 4, .usage = BUFFER_STORAGE | BUFFER_INDIRECT, .name = "sdfgi.probe_list" });
 	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
+	ray_cache_words = uint32_t(std::min<uint64_t>(uint64_t(settings.ray_cache_mib) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * settings.frames_to_converge));
+	ray_cache = device.create_buffer({ .size_bytes = uint64_t(ray_cache_words) * 4, .name = "sdfgi.ray_cache" });
 	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
 		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
 	};
@@ -88,11 +101,11 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	cascades_placed = false;
 	stats = {};
 	stats.probes = probes;
-	stats.bytes = world->size_bytes() + uint64_t(ray_pixel_capacity) * 4 + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
+	stats.bytes = world->size_bytes() + uint64_t(ray_cache_words) * 4 + uint64_t(ray_pixel_capacity) * 4 + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
 }
 
 SdfgiPassInputs Sdfgi::Impl::pass_inputs() const {
-	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .probe_list = probe_list, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
+	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .probe_list = probe_list, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .ray_cache = ray_cache, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
 }
 
 // Lists the cascades that must be built anew. True: some moved.
@@ -114,7 +127,7 @@ void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p
 		.probes = probes_axis,
 		.spacing_cells = settings.probe_spacing_cells,
 		.rays = settings.probe_rays,
-		.frame = frame,
+		.frame = frame < PROBE_RESTART_FRAMES ? frame : frame - PROBE_RESTART_FRAMES,
 		.normal_bias = settings.normal_bias,
 		.probe_bias = settings.probe_bias,
 		.energy = settings.energy,
@@ -125,21 +138,33 @@ void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p
 	r_recorder.update_buffer(probe_params, 0, std::as_bytes(std::span(&params, 1)));
 }
 
+// The light has to settle anew. Rays between surfaces stay what they are unless the geometry has changed.
+void Sdfgi::Impl::restart(bool p_geometry) {
+	frame = 0;
+	lamp_turns_done = 0;
+	turns_done = p_geometry ? 0 : turns_done;
+	converged = false;
+	peak_rays = 0;
+	stats.frames = 0;
+}
+
 void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	r_recorder.clear_buffer(statistics);
 	const SdfgiPassInputs inputs = pass_inputs();
-	const LightEpoch epoch = light_epoch(frame, settings.frames_to_converge);
+	const uint32_t turns = settings.frames_to_converge;
+	const bool traces = turns_done < turns;
+	const bool lights_lamps = light_count > 0 && lamp_turns_done < turns;
+	const auto rays = [&](uint32_t p_cascade, uint32_t p_turn) { return shader::RecordRaysConstants{ .cascade = p_cascade, .turn = p_turn, .turns = turns, .cache_capacity = ray_cache_words, .light_count = light_count }; };
+	for (uint32_t i = 0; i < settings.cascades && traces; i++) {
+		trace_records(r_recorder, inputs, rays(i, turns_done));
+	}
+	for (uint32_t i = 0; i < settings.cascades && lights_lamps; i++) {
+		light_lamps(r_recorder, inputs, rays(i, lamp_turns_done));
+	}
+	turns_done += traces ? 1 : 0;
+	lamp_turns_done += lights_lamps ? 1 : 0;
 	for (uint32_t i = 0; i < settings.cascades; i++) {
-		const shader::LightRecordsConstants constants = {
-			.cascade = i,
-			.frame = frame,
-			.epoch_frames = epoch.frames,
-			.epoch_turn = epoch.turn,
-			.first_epoch = epoch.index == 0 ? 1u : 0u,
-			.light_count = light_count,
-			.feedback = settings.bounce_feedback,
-		};
-		light_records(r_recorder, inputs, constants);
+		light_records(r_recorder, inputs, { .cascade = i, .turns = turns, .turns_done = turns_done, .lamp_turns_done = lamp_turns_done, .cache_capacity = ray_cache_words, .feedback = settings.bounce_feedback });
 	}
 	world->swap_light();
 	const SdfgiPassInputs lit = pass_inputs();
@@ -149,12 +174,12 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 			filter_probes(r_recorder, lit, i, far);
 		}
 	}
-	// Short sets differ by their noise: only full ones tell whether the light has settled.
-	ends_epoch = epoch.frames == settings.frames_to_converge && epoch.turn == epoch.frames - 1;
-	if (ends_epoch) {
-		full_epochs++;
-	}
 	frame++;
+	// Every texel of a probe's radiance is traced anew in this many frames.
+	const uint32_t probe_round = (PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS + settings.probe_rays - 1) / settings.probe_rays;
+	may_settle = !traces && !lights_lamps && frame >= PROBE_RESTART_FRAMES + PROBE_LEAST_VISITS * probe_round;
+	// The frame that traces last tells how many rays there are.
+	checks_light = (traces && turns_done == turns) || (may_settle && frame % CHECK_PERIOD_FRAMES == 0);
 	stats.frames++;
 }
 
@@ -188,10 +213,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 		}
 	}
 	if (!stale.empty() || p_scene.light_version != i.light_version || relight) {
-		i.frame = 0;
-		i.full_epochs = 0;
-		i.converged = false;
-		i.stats.frames = 0;
+		i.restart(!stale.empty());
 	}
 	i.geometry_version = p_scene.geometry_version;
 	i.light_version = p_scene.light_version;
@@ -208,11 +230,8 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	if (!stale.empty()) {
 		i.world->collect_emitters(r_recorder);
 	}
-	if (i.frame == 0 && !i.converged) {
-		i.world->clear_record_state(r_recorder);
-	}
-	i.ends_epoch = false;
-	i.stats.rays = 0;
+	i.checks_light = false;
+	i.stats.rays = i.converged ? 0 : i.peak_rays;
 	if (!i.converged) {
 		i.light_frame(r_recorder);
 	}
@@ -220,12 +239,13 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 
 void Sdfgi::after_frame() {
 	Impl &i = *impl;
-	if (!i.ends_epoch || i.world == nullptr) {
+	if (!i.checks_light || i.world == nullptr) {
 		return;
 	}
 	const std::vector<shader::SdfgiStatistics> statistics = i.device.read_back_buffer<shader::SdfgiStatistics>(i.statistics);
 	const std::vector<shader::CascadeCounts> counts = i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle());
-	i.stats.rays = statistics[0].rays;
+	i.peak_rays = std::max<uint64_t>(i.peak_rays, statistics[0].rays);
+	i.stats.rays = i.peak_rays;
 	i.stats.surface_cells = 0;
 	i.stats.surface_records = 0;
 	for (uint32_t c = 0; c < i.settings.cascades; c++) {
@@ -235,9 +255,9 @@ void Sdfgi::after_frame() {
 			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
 		}
 	}
-	i.converged = i.full_epochs >= 2 && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.full_epochs >= MAX_EPOCHS);
+	i.converged = i.may_settle && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.frame >= MAX_FRAMES);
 	i.stats.converged = i.converged;
-	i.ends_epoch = false;
+	i.checks_light = false;
 }
 
 void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {

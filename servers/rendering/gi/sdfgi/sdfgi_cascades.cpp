@@ -22,24 +22,4 @@ Vector3i cascade_origin_cells(const Vector3 &p_camera_m, const Vector3 &p_cell_m
 	return origin;
 }
 
-LightEpoch light_epoch(uint32_t p_frame, uint32_t p_full_frames) {
-	LightEpoch epoch;
-	uint32_t start = 0;
-	for (uint32_t length = 1; length < p_full_frames; length *= 2) {
-		const uint32_t sets = std::max(4 / length, 1u);
-		if (p_frame < start + sets * length) {
-			epoch.frames = length;
-			epoch.index += (p_frame - start) / length;
-			epoch.turn = (p_frame - start) % length;
-			return epoch;
-		}
-		start += sets * length;
-		epoch.index += sets;
-	}
-	epoch.frames = p_full_frames;
-	epoch.index += (p_frame - start) / p_full_frames;
-	epoch.turn = (p_frame - start) % p_full_frames;
-	return epoch;
-}
-
 } // namespace lucent

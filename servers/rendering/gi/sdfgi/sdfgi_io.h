@@ -9,14 +9,17 @@
 #define PROBE_BORDERED_TEXELS 8 // … with it; both maps are stored with one texel of border around: radiance 10
 #define PROBE_RADIANCE_BORDERED_TEXELS 10
 
-// light_records
-#define LIGHT_RECORDS_LIGHTS 20
-#define LIGHT_RECORDS_COUNTS 21
-#define LIGHT_RECORDS_EMITTERS 22
-#define LIGHT_RECORDS_EMITTER_COUNT 23
-#define LIGHT_RECORDS_STATE 24
-#define LIGHT_RECORDS_OUT 25
-#define LIGHT_RECORDS_STATISTICS 26
+// trace_records, light_lamps, light_records
+#define RECORD_RAYS_COUNTS 20
+#define RECORD_RAYS_STATE 21
+#define RECORD_RAYS_STATISTICS 22
+#define RECORD_RAYS_CACHE 23
+#define TRACE_RECORDS_EMITTERS 24
+#define TRACE_RECORDS_EMITTER_COUNT 25
+#define LIGHT_LAMPS_LIGHTS 24
+#define LIGHT_RECORDS_OUT 24
+
+#define SETTLED_CHANGE 0.002 // of a record's light in a frame: less counts as none
 
 // gather_gi, gather_rays
 #define GATHER_DEPTH 20
@@ -41,13 +44,19 @@
 #define GI_PROBE_SAMPLER 33
 
 INTEROP_BEGIN
+struct RecordRaysConstants {
+	uint cascade;
+	uint turn; // of `turns`
+	uint turns; // in a full set of rays
+	uint cache_capacity; // words
+	uint light_count;
+};
 struct LightRecordsConstants {
 	uint cascade;
-	uint frame; // since the light was reset
-	uint epoch_frames; // frames of this set of rays
-	uint epoch_turn; // of them, done before this one
-	uint first_epoch; // 1: there is no earlier mean
-	uint light_count;
+	uint turns; // in a full set of rays
+	uint turns_done; // by trace_records, this frame's included
+	uint lamp_turns_done; // by light_lamps
+	uint cache_capacity; // words
 	float feedback; // sdfgi_bounce_feedback
 };
 // A probe's place: offset from its grid point in 1/16 cells, 8 bits an axis (signed), then PROBE_* bits.
@@ -86,11 +95,12 @@ struct GatherConstants {
 };
 struct SdfgiStatistics {
 	uint rays;
-	uint lit_records; // at the end of an epoch: with any light
-	uint changed_records; // … whose mean moved by more than 2 %
+	uint lit_records; // with any light
+	uint changed_records; // … that moved by more than SETTLED_CHANGE
 };
 INTEROP_END
-INTEROP_SIZE(LightRecordsConstants, 28)
+INTEROP_SIZE(RecordRaysConstants, 20)
+INTEROP_SIZE(LightRecordsConstants, 24)
 INTEROP_SIZE(ProbeParams, 48)
 INTEROP_SIZE(ProbeListHeader, 28)
 INTEROP_SIZE(GatherConstants, 88)

@@ -25,18 +25,42 @@ void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_
 	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).write(OUT_0, p_in.probe_places).read_write(PROBE_LIST, p_in.probe_list).constants(constants).dispatch_threads(p_in.probes_in_cascade);
 }
 
-void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants) {
-	ComputePass pass = r_recorder.compute("sdfgi.light_records", Shader::LIGHT_RECORDS);
+namespace {
+
+// Binds what all passes over records share.
+ComputePass record_pass(PassRecorder &r_recorder, const char *p_name, Shader p_shader, const SdfgiPassInputs &p_in) {
+	ComputePass pass = r_recorder.compute(p_name, p_shader);
 	p_in.world.bind_light(pass, p_in.sky);
-	pass.read(LIGHT_RECORDS_LIGHTS, p_in.lights)
-			.read(LIGHT_RECORDS_COUNTS, p_in.world.counts_handle())
-			.read(LIGHT_RECORDS_EMITTERS, p_in.world.emitters_handle())
-			.read(LIGHT_RECORDS_EMITTER_COUNT, p_in.world.emitter_count_handle())
-			.read_write(LIGHT_RECORDS_STATE, p_in.world.record_state_handle())
-			.write(LIGHT_RECORDS_OUT, p_in.world.next_light_handle())
-			.read_write(LIGHT_RECORDS_STATISTICS, p_in.statistics)
-			.constants(p_constants)
-			.dispatch_indirect(p_in.world.counts_handle(), p_constants.cascade * sizeof(shader::CascadeCounts) + offsetof(shader::CascadeCounts, light_groups));
+	pass.read(RECORD_RAYS_COUNTS, p_in.world.counts_handle()).read_write(RECORD_RAYS_STATISTICS, p_in.statistics);
+	return pass;
+}
+
+void dispatch_records(ComputePass &r_pass, const SdfgiPassInputs &p_in, uint32_t p_cascade) {
+	r_pass.dispatch_indirect(p_in.world.counts_handle(), p_cascade * sizeof(shader::CascadeCounts) + offsetof(shader::CascadeCounts, light_groups));
+}
+
+} // namespace
+
+void trace_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::RecordRaysConstants &p_constants) {
+	ComputePass pass = record_pass(r_recorder, "sdfgi.trace_records", Shader::TRACE_RECORDS, p_in);
+	pass.read(TRACE_RECORDS_EMITTERS, p_in.world.emitters_handle())
+			.read(TRACE_RECORDS_EMITTER_COUNT, p_in.world.emitter_count_handle())
+			.read_write(RECORD_RAYS_STATE, p_in.world.record_state_handle())
+			.write(RECORD_RAYS_CACHE, p_in.ray_cache)
+			.constants(p_constants);
+	dispatch_records(pass, p_in, p_constants.cascade);
+}
+
+void light_lamps(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::RecordRaysConstants &p_constants) {
+	ComputePass pass = record_pass(r_recorder, "sdfgi.light_lamps", Shader::LIGHT_LAMPS, p_in);
+	pass.read(LIGHT_LAMPS_LIGHTS, p_in.lights).read_write(RECORD_RAYS_STATE, p_in.world.record_state_handle()).constants(p_constants);
+	dispatch_records(pass, p_in, p_constants.cascade);
+}
+
+void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants) {
+	ComputePass pass = record_pass(r_recorder, "sdfgi.light_records", Shader::LIGHT_RECORDS, p_in);
+	pass.read(RECORD_RAYS_STATE, p_in.world.record_state_handle()).read(RECORD_RAYS_CACHE, p_in.ray_cache).write(LIGHT_RECORDS_OUT, p_in.world.next_light_handle()).constants(p_constants);
+	dispatch_records(pass, p_in, p_constants.cascade);
 }
 
 void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far) {

@@ -20,6 +20,7 @@ struct SdfgiPassInputs {
 	TextureHandle sky;
 	BufferHandle lights;
 	BufferHandle statistics;
+	BufferHandle ray_cache; // a word a ray
 	uint32_t probes_in_cascade = 0;
 	uint32_t probe_rays = 0;
 
@@ -28,6 +29,8 @@ struct SdfgiPassInputs {
 };
 
 void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
+void trace_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::RecordRaysConstants &p_constants);
+void light_lamps(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::RecordRaysConstants &p_constants);
 void light_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::LightRecordsConstants &p_constants);
 void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far);
 void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade, bool p_far);

@@ -36,7 +36,7 @@ void trace_ray(uint place, uint ray) {
 	vec3 origin_m = probe_position_m(constants.cascade, probe, probe_place);
 	atomicAdd(group_rays, 1u);
 	WorldHit hit = trace_world(origin_m, direction, 1e6, constants.cascade);
-	vec3 radiance = hit.hit ? hit_radiance(hit, direction, 1.0, true) : world_sky_radiance(direction);
+	vec3 radiance = hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);
 	vec3 mean = imageLoad(radiance_atlas, at).rgb;
 	float weight = 1.0 / float(min(visit, probe_params.average_frames - 1u) + 1u);
 	imageStore(radiance_atlas, at, vec4(min(mix(mean, radiance, weight), vec3(65000.0)), 1.0));

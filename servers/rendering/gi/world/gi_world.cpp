@@ -10,7 +10,6 @@ constexpr uint32_t OUT_0 = 20;
 constexpr uint32_t OUT_1 = 21;
 constexpr uint32_t OUT_2 = 22;
 constexpr uint32_t OUT_3 = 23;
-constexpr uint32_t OUT_4 = 24;
 constexpr uint32_t VOXEL_SURFACES = 10;
 constexpr uint32_t VOXEL_POSITIONS = 11;
 constexpr uint32_t VOXEL_INDICES = 12;
@@ -24,7 +23,7 @@ constexpr uint32_t VOXEL_STRETCHES = 18;
 constexpr uint32_t STRETCH_CAPACITY = 131072; // 512 triangles that fill a cascade of 128 cells an axis
 
 constexpr uint32_t EMITTER_CAPACITY = 16384;
-constexpr uint32_t STATE_BYTES = 4 * 12; // light_records.comp.glsl: four vec3 a record
+constexpr uint32_t STATE_BYTES = 2 * 12; // record_rays_inc.glsl: two vec3 a record
 constexpr uint32_t LIGHT_BYTES = 16;
 
 } // namespace
@@ -153,7 +152,7 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	build_sdf(r_recorder, p_cascade);
 	ComputePass resolve = r_recorder.compute("gi_world.resolve_records", Shader::RESOLVE_RECORDS);
 	bind_trace(resolve);
-	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).write(OUT_4, record_state).constants(constants).dispatch_groups(1024);
+	resolve.read(OUT_0, accumulators).read(OUT_1, counts).read_write(OUT_2, records).write(OUT_3, record_light[current_light]).constants(constants).dispatch_groups(1024);
 	if (groups > 0) {
 		dispatch(voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS).read_write(WORLD_RECORDS, records).read_write(OUT_0, cells), groups);
 	}
@@ -189,10 +188,6 @@ void GiWorld::collect_emitters(PassRecorder &r_recorder) {
 			.read_write(OUT_1, emitters)
 			.write(OUT_2, emitter_count)
 			.dispatch_groups(1);
-}
-
-void GiWorld::clear_record_state(PassRecorder &r_recorder) {
-	clear_words(r_recorder, "gi_world.clear_state", record_state, 0, uint32_t(record_state.is_valid() ? uint64_t(params.cascade_count) * params.record_capacity * STATE_BYTES / 4 : 0));
 }
 
 } // namespace lucent

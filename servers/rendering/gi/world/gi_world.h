@@ -37,7 +37,6 @@ public:
 	void place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade);
 	// The list for next-event estimation; after the starts.
 	void collect_emitters(PassRecorder &r_recorder);
-	void clear_record_state(PassRecorder &r_recorder);
 	// What was written this frame becomes what is read.
 	void swap_light() { current_light ^= 1; }
 

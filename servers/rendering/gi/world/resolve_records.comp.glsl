@@ -8,7 +8,6 @@
 #define RESOLVE_RECORDS_COUNTS 21
 #define RESOLVE_RECORDS_RECORDS 22
 #define RESOLVE_RECORDS_LIGHT 23
-#define RESOLVE_RECORDS_STATE 24
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = RESOLVE_RECORDS_ACCUMULATORS, scalar) readonly buffer AccumulatorsBlock {
@@ -22,9 +21,6 @@ layout(set = 0, binding = RESOLVE_RECORDS_RECORDS, scalar) buffer RecordsBlock {
 };
 layout(set = 0, binding = RESOLVE_RECORDS_LIGHT, scalar) writeonly buffer RecordLightBlock {
 	uvec4 record_light[];
-};
-layout(set = 0, binding = RESOLVE_RECORDS_STATE, scalar) writeonly buffer RecordStateBlock {
-	vec3 record_state[]; // four a record
 };
 layout(push_constant, scalar) uniform ResolvePush {
 	VoxelizeConstants constants;
@@ -56,8 +52,5 @@ void main() {
 		record.area_m2 = cascade.cell_m.x * cascade.cell_m.y * cascade.cell_m.z * length(area_vector / cascade.cell_m);
 		records[index] = record;
 		record_light[index] = uvec4(0u);
-		for (uint k = 0u; k < 4u; k++) {
-			record_state[index * 4u + k] = vec3(0.0);
-		}
 	}
 }

@@ -3,9 +3,10 @@
 #ifndef SURFACE_LIGHT_INC
 #define SURFACE_LIGHT_INC
 #include "servers/rendering/gi/world/trace_world_inc.glsl"
+#include "servers/rendering/shaders/sampling_inc.glsl"
 
 layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly buffer WorldRecordLightBlock {
-	uvec4 world_record_light[]; // xy: all light, zw: all but lamps'
+	uvec4 world_record_light[]; // xy: reflected, zw: falls on it, but for lamps'
 };
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY)) uniform texture2D world_sky;
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler world_sky_sampler;
@@ -14,6 +15,10 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler worl
 #ifndef WORLD_CELL_ON_WAY
 #define WORLD_CELL_ON_WAY load_cell
 #endif
+#define SHORT_WAY_MAX_STEPS 48u
+// What a ray met, instead of a record's index.
+#define RAY_MET_NOTHING 0xFFFFFFFFu
+#define RAY_MET_SKY 0xFFFFFFFEu
 
 // Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up. As for rays, the
 // solid sub-voxels of a flat cell only count where the way crosses a surface.
@@ -23,20 +28,21 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	vec3 way = to_m * scale - a;
 	way = mix(way, vec3(1e-6), lessThan(abs(way), vec3(1e-6)));
 	vec3 inverse = 1.0 / way;
-	ivec3 s = ivec3(floor(a));
-	ivec3 direction = ivec3(sign(way));
-	vec3 t_next = (vec3(s) + step(vec3(0.0), way) - a) * inverse;
+	ivec3 direction_sign = ivec3(sign(way));
+	GridWalk walk;
+	walk.at = ivec3(floor(a));
+	walk.t_next = (vec3(walk.at) + step(vec3(0.0), way) - a) * inverse;
 	ivec3 cell_at = ivec3(0x7FFFFFFF);
 	WorldCell cell = WorldCell(uvec2(0u), 0u);
 	float t = 0.0;
-	for (uint i = 0u; i < 48u; i++) {
-		ivec3 now = s >> 2;
+	for (uint i = 0u; i < SHORT_WAY_MAX_STEPS; i++) {
+		ivec3 now = walk.at >> 2;
 		if (now != cell_at) {
 			cell_at = now;
 			cell = WORLD_CELL_ON_WAY(cascade, now);
 		}
-		float t_leave = min(t_next.x, min(t_next.y, t_next.z));
-		uvec3 local = uvec3(s) & 3u;
+		float t_leave = walk_leaves(walk);
+		uvec3 local = uvec3(walk.at) & 3u;
 		if (bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
 			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
 			if (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(now), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(now))) {
@@ -47,16 +53,7 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 			return true;
 		}
 		t = t_leave;
-		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
-			t_next.x += abs(inverse.x);
-			s.x += direction.x;
-		} else if (t_next.y <= t_next.z) {
-			t_next.y += abs(inverse.y);
-			s.y += direction.y;
-		} else {
-			t_next.z += abs(inverse.z);
-			s.z += direction.z;
-		}
+		walk_on(walk, inverse, direction_sign);
 	}
 	return false;
 }
@@ -95,41 +92,69 @@ vec3 visible_emission(WorldRecord record, WorldCell cell) {
 	return emission * (record.area_m2 * abs(record_normal(record)[axis]) / seen_m2);
 }
 
-// Radiance that leaves the hit against `direction`, from the records that face the ray and that a free way leads to; black behind one-sided
-// surfaces. Reflected light is multiplied by `reflected_scale`.
-vec3 hit_radiance(WorldHit hit, vec3 direction, float reflected_scale, bool with_emission) {
+// How much a record has to do with a hit: 0 where it doesn't face the ray, or where no free way leads from `free_m` to it (asked when the
+// cell holds several: some may lie on the other side of a thin wall, or inside of solids that touch).
+float record_weight(WorldHit hit, vec3 direction, WorldRecord record, bool several, vec3 free_m) {
+	vec3 normal = record_normal(record);
+	float facing = -dot(normal, direction);
+	if (facing <= 0.0 || !record_has_start(record)) {
+		return 0.0;
+	}
+	if (several && !short_way_is_free(hit.cascade, free_m, record_start_m(record))) {
+		return 0.0;
+	}
+	float off_plane = abs(dot(hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(hit.cascade, normal);
+	return facing / (0.25 + off_plane * off_plane);
+}
+
+bool has_several(uint faces) {
+	return (faces & (faces - 1u)) != 0u;
+}
+
+// Radiance that leaves the hit against `direction`: the mean of the records that face the ray and that a free way leads to; black behind
+// one-sided surfaces.
+vec3 hit_radiance(WorldHit hit, vec3 direction) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return vec3(0.0);
 	}
 	WorldCell cell = world_cells[hit.cell];
 	uint faces = cell.records & 63u;
-	uint end = record_end(hit.cascade);
-	// With several records, some may lie on the other side of a thin wall, or inside of solids that touch.
-	bool several = (faces & (faces - 1u)) != 0u;
+	bool several = has_several(faces);
 	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
-	uint index = cell_first_record(cell.records);
-	for (; faces != 0u && index < end; faces &= faces - 1u, index++) {
+	uint end = record_end(hit.cascade);
+	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
 		WorldRecord record = world_records[index];
-		vec3 normal = record_normal(record);
-		float facing = -dot(normal, direction);
-		if (facing <= 0.0 || !record_has_start(record)) {
-			continue;
+		float weight = record_weight(hit, direction, record, several, free_m);
+		if (weight > 0.0) {
+			sum += weight * (vec4_from_half4(world_record_light[index].xy).rgb + visible_emission(record, cell));
+			weight_sum += weight;
 		}
-		if (several && !short_way_is_free(hit.cascade, free_m, record_start_m(record))) {
-			continue;
-		}
-		float off_plane = abs(dot(hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(hit.cascade, normal);
-		float weight = facing / (0.25 + off_plane * off_plane);
-		vec3 radiance = vec4_from_half4(world_record_light[index].xy).rgb * color_from_unorm111110(record.albedo) * reflected_scale;
-		if (with_emission) {
-			radiance += visible_emission(record, cell);
-		}
-		sum += weight * radiance;
-		weight_sum += weight;
 	}
 	return weight_sum > 0.0 ? sum / weight_sum : vec3(0.0);
+}
+
+// One of the records that hit_radiance takes the mean of, by their weights; RAY_MET_NOTHING: none.
+uint pick_record(WorldHit hit, vec3 direction, uint seed) {
+	uint picked = RAY_MET_NOTHING;
+	if (hit.cell >= WORLD_LOST_CELL) {
+		return picked;
+	}
+	WorldCell cell = world_cells[hit.cell];
+	uint faces = cell.records & 63u;
+	bool several = has_several(faces);
+	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
+	float weight_sum = 0.0;
+	uint end = record_end(hit.cascade);
+	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
+		float weight = record_weight(hit, direction, world_records[index], several, free_m);
+		weight_sum += weight;
+		if (weight > 0.0 && unit_float(hash_uint(seed + index)) * weight_sum < weight) {
+			picked = index;
+		}
+	}
+	return picked;
 }
 
 #endif

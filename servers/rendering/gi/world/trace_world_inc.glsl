@@ -79,37 +79,63 @@ bool crosses_surface(uint cascade, uint packed_records, vec3 a, vec3 b) {
 	return behind_all;
 }
 
+// A walk through face-neighbouring boxes of a grid (Amanatides and Woo 1987).
+struct GridWalk {
+	ivec3 at;
+	vec3 t_next; // where the ray leaves the box, by axis
+};
+
+void walk_on(inout GridWalk walk, vec3 inverse_rate, ivec3 direction_sign) {
+	if (walk.t_next.x <= walk.t_next.y && walk.t_next.x <= walk.t_next.z) {
+		walk.t_next.x += abs(inverse_rate.x);
+		walk.at.x += direction_sign.x;
+	} else if (walk.t_next.y <= walk.t_next.z) {
+		walk.t_next.y += abs(inverse_rate.y);
+		walk.at.y += direction_sign.y;
+	} else {
+		walk.t_next.z += abs(inverse_rate.z);
+		walk.at.z += direction_sign.z;
+	}
+}
+
+float walk_leaves(GridWalk walk) {
+	return min(walk.t_next.x, min(walk.t_next.y, walk.t_next.z));
+}
+
+bool is_outside(ivec3 at, int size) {
+	return any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(size)));
+}
+
 // Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in
 // metres to the surface, or a negative number.
 float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
-	ivec3 s = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
-	ivec3 direction = ivec3(sign(rate));
-	vec3 t_next = (vec3(s) + step(vec3(0.0), rate) - entry) * inverse_rate;
+	ivec3 direction_sign = ivec3(sign(rate));
+	GridWalk walk;
+	walk.at = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
+	walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - entry) * inverse_rate;
 	bool flat_cell = (cell.records & WORLD_CELL_FLAT) != 0u;
 	float t = 0.0;
-	for (uint i = 0u; i < 12u; i++) {
-		if (bit_is_set(cell.bits, uint(s.x + 4 * s.y + 16 * s.z))) {
-			float t_leave = min(t_next.x, min(t_next.y, t_next.z));
-			if (!flat_cell || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
-				return t;
+	bool inside = true;
+	for (uint tests = 0u; tests < 12u && inside; tests++) {
+		bool solid = false;
+		for (uint i = 0u; i < 12u && inside && !solid; i++) {
+			solid = bit_is_set(cell.bits, uint(walk.at.x + 4 * walk.at.y + 16 * walk.at.z));
+			if (!solid) {
+				t = walk_leaves(walk);
+				walk_on(walk, inverse_rate, direction_sign);
+				inside = !is_outside(walk.at, 4) && t <= t_max;
 			}
 		}
-		if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
-			t = t_next.x;
-			t_next.x += abs(inverse_rate.x);
-			s.x += direction.x;
-		} else if (t_next.y <= t_next.z) {
-			t = t_next.y;
-			t_next.y += abs(inverse_rate.y);
-			s.y += direction.y;
-		} else {
-			t = t_next.z;
-			t_next.z += abs(inverse_rate.z);
-			s.z += direction.z;
+		if (!solid) {
+			break;
 		}
-		if (any(lessThan(s, ivec3(0))) || any(greaterThan(s, ivec3(3))) || t > t_max) {
-			return -1.0;
+		float t_leave = walk_leaves(walk);
+		if (!flat_cell || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
+			return t;
 		}
+		t = t_leave;
+		walk_on(walk, inverse_rate, direction_sign);
+		inside = !is_outside(walk.at, 4) && t <= t_max;
 	}
 	return -1.0;
 }
@@ -162,62 +188,59 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 		vec3 o = origin_m / c.cell_m - vec3(c.origin_cells);
 		ivec3 direction_sign = ivec3(sign(rate));
 		int size = int(world.grid_size);
-		ivec3 cell = clamp(ivec3(floor(o + rate * t)), ivec3(0), ivec3(size - 1));
-		vec3 t_next = (vec3(cell) + step(vec3(0.0), rate) - o) * inverse_rate;
+		GridWalk walk;
+		walk.at = clamp(ivec3(floor(o + rate * t)), ivec3(0), ivec3(size - 1));
+		walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - o) * inverse_rate;
+		bool inside = true;
 
-		for (; steps < TRACE_MAX_STEPS && t < t_end; steps++) {
-			uvec3 storage = storage_from_world_cell(cell + c.origin_cells);
-			float distance = sdf_cells(cascade, storage);
-			float t_leave = min(t_next.x, min(t_next.y, t_next.z));
-			if (distance < 0.5) {
-				uint index = find_cell(cascade, storage);
-				if (index < WORLD_LOST_CELL) {
-					vec3 entry = (o + rate * t - vec3(cell)) * float(WORLD_SUB_VOXELS);
-					float way = trace_sub_voxels(cascade, world_cells[index], entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
-					if (way >= 0.0) {
-						result.hit = true;
-						result.t_m = t + way;
+		// Two loops, one in the other, so that the code for stored cells runs once a stored cell and not once a step: a CPU's lanes
+		// run all code of a loop's body in each turn.
+		while (inside && steps < TRACE_MAX_STEPS && t < t_end) {
+			bool stored = false;
+			for (; inside && !stored && steps < TRACE_MAX_STEPS && t < t_end; steps++) {
+				float distance = sdf_cells(cascade, storage_from_world_cell(walk.at + c.origin_cells));
+				stored = distance < 0.5;
+				if (!stored) {
+					// The sphere around the point that no stored cell's box can reach: 0.8661 is half a cell's diagonal.
+					vec3 p = o + rate * t;
+					float t_sphere = t + (distance - 0.8661 - length(p - vec3(walk.at) - 0.5)) * inverse_speed;
+					float t_leave = walk_leaves(walk);
+					if (t_sphere > t_leave) {
+						t = t_sphere;
+						walk.at = ivec3(floor(o + rate * t));
+						walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - o) * inverse_rate;
+					} else {
+						t = max(t, t_leave);
+						walk_on(walk, inverse_rate, direction_sign);
 					}
-				} else if (index == WORLD_LOST_CELL) {
-					result.hit = true;
-					result.t_m = t;
-				}
-				if (result.hit) {
-					result.cascade = cascade;
-					result.cell = index;
-					result.world_cell = cell + c.origin_cells;
-					result.position_m = origin_m + direction * result.t_m;
-					return result;
-				}
-			} else {
-				// The sphere around the point that no stored cell's box can reach: 0.8661 is half a cell's diagonal.
-				vec3 p = o + rate * t;
-				float reach = distance - 0.8661 - length(p - vec3(cell) - 0.5);
-				float t_sphere = t + reach * inverse_speed;
-				if (t_sphere > t_leave) {
-					t = t_sphere;
-					cell = ivec3(floor(o + rate * t));
-					if (t >= t_end || any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(size)))) {
-						break;
-					}
-					t_next = (vec3(cell) + step(vec3(0.0), rate) - o) * inverse_rate;
-					continue;
+					inside = !is_outside(walk.at, size);
 				}
 			}
-			t = max(t, t_leave);
-			if (t_next.x <= t_next.y && t_next.x <= t_next.z) {
-				t_next.x += abs(inverse_rate.x);
-				cell.x += direction_sign.x;
-			} else if (t_next.y <= t_next.z) {
-				t_next.y += abs(inverse_rate.y);
-				cell.y += direction_sign.y;
-			} else {
-				t_next.z += abs(inverse_rate.z);
-				cell.z += direction_sign.z;
-			}
-			if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(size)))) {
+			if (!stored) {
 				break;
 			}
+			uint index = find_cell(cascade, storage_from_world_cell(walk.at + c.origin_cells));
+			if (index < WORLD_LOST_CELL) {
+				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
+				float way = trace_sub_voxels(cascade, world_cells[index], entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+				result.hit = way >= 0.0;
+				result.t_m = t + way;
+			} else if (index == WORLD_LOST_CELL) {
+				result.hit = true;
+				result.t_m = t;
+			}
+			if (result.hit) {
+				result.cascade = cascade;
+				result.cell = index;
+				result.world_cell = walk.at + c.origin_cells;
+				result.position_m = origin_m + direction * result.t_m;
+				return result;
+			}
+			result.t_m = t_max_m;
+			t = max(t, walk_leaves(walk));
+			walk_on(walk, inverse_rate, direction_sign);
+			inside = !is_outside(walk.at, size);
+			steps++;
 		}
 		if (t >= t_max_m || steps >= TRACE_MAX_STEPS) {
 			break;

@@ -23,7 +23,7 @@
 #define WORLD_CELLS 3 // WorldCell a stored cell
 #define WORLD_SDF 4 // a byte a cell: distance to the nearest stored cell's centre, in sixteenths of a cell, rounded down, 255: that or more
 #define WORLD_RECORDS 5 // WorldRecord
-#define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: irradiance / pi (times albedo: radiance) of all light; of all light but lamps'; w: 1 when lit
+#define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: radiance that it reflects of all light; irradiance / pi of all light but lamps'
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// One turn of shadow rays from surface records to lamps. Lamps take turns: `slots` is their count rounded up to a power of two, so that a
+// full set of turns holds each equally often.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "servers/rendering/gi/sdfgi/record_rays_inc.glsl"
+#include "servers/rendering/shaders/scene_io.h"
+
+layout(set = 0, binding = LIGHT_LAMPS_LIGHTS, scalar) readonly buffer LightsBlock {
+	LightData lights[];
+};
+
+float light_attenuation(LightData light, vec3 to_light, float distance_m) {
+	float window = distance_m / light.range;
+	window = max(1.0 - window * window * window * window, 0.0);
+	float attenuation = window * window * pow(max(distance_m, 1e-4), -light.attenuation);
+	if (light.type == LIGHT_TYPE_SPOT) {
+		float cosine = dot(-to_light, light.direction);
+		if (cosine <= light.spot_cos) {
+			return 0.0;
+		}
+		float rim = max(1e-4, (1.0 - cosine) / (1.0 - light.spot_cos));
+		attenuation *= 1.0 - pow(rim, light.spot_attenuation);
+	}
+	return attenuation;
+}
+
+LightRay ray_to_lamp(LightData light, vec3 from_m, vec3 normal, vec2 u) {
+	LightRay ray;
+	ray.t_max_m = 1e6;
+	ray.light = light.color * light.indirect_energy;
+	if (light.type == LIGHT_TYPE_DIRECTIONAL) {
+		ray.direction = -light.direction;
+		if (light.angular_radius > 0.0) {
+			float radius = tan(light.angular_radius) * sqrt(u.x);
+			ray.direction = normalize(basis_from_normal(ray.direction) * vec3(radius * cos(2.0 * PI * u.y), radius * sin(2.0 * PI * u.y), 1.0));
+		}
+	} else {
+		vec3 way = light.position - from_m;
+		float distance_m = max(length(way), 1e-4);
+		ray.direction = way / distance_m;
+		ray.t_max_m = distance_m;
+		ray.light *= light_attenuation(light, ray.direction, distance_m);
+	}
+	ray.light *= max(dot(normal, ray.direction), 0.0);
+	return ray;
+}
+
+vec3 light_of_lane(WorldRecord record, uint lane) {
+	uint seed = record_seed(record);
+	uint sample_index = constants.turn * RECORD_LANES + lane;
+	LaneOrigin origin = lane_origin(record, seed, sample_index);
+	uint slots = 1u;
+	for (uint i = 0u; i < 20u && slots < constants.light_count; i++) {
+		slots *= 2u;
+	}
+	uint lane_slots = max(slots / RECORD_LANES, 1u);
+	uint lamp_rays = max(lane_slots / constants.turns, 1u);
+	vec3 light = vec3(0.0);
+	for (uint k = 0u; k < lamp_rays; k++) {
+		uint turn = constants.turn * lamp_rays + k;
+		uint lamp = slots < RECORD_LANES ? lane % slots : lane * lane_slots + turn % lane_slots;
+		if (lamp >= constants.light_count) {
+			continue;
+		}
+		LightRay ray = ray_to_lamp(lights[lamp], origin.surface_m, origin.normal, r2_point(sample_index, seed + 7u));
+		if (ray.light == vec3(0.0)) {
+			continue;
+		}
+		float skipped_m;
+		light += trace_from_record(origin, ray, skipped_m).hit ? vec3(0.0) : ray.light;
+		atomicAdd(group_rays, 1u);
+	}
+	return light * (float(slots) / float(RECORD_LANES * lamp_rays));
+}
+
+void main() {
+	uint lane = gl_LocalInvocationIndex % RECORD_LANES;
+	uint count = records_of(constants.cascade);
+	if (gl_LocalInvocationIndex == 0u) {
+		group_rays = 0u;
+	}
+	barrier();
+	for (uint group = gl_WorkGroupID.x; group < (count + 7u) / 8u; group += gl_NumWorkGroups.x) {
+		uint i = group * 8u + gl_LocalInvocationIndex / RECORD_LANES;
+		uint index = record_base(constants.cascade) + min(i, count - 1u);
+		WorldRecord record = world_records[index];
+		bool active_record = i < count && record_is_active(record);
+		vec3 light = vec3(0.0);
+		if (active_record) {
+			light = light_of_lane(record, lane);
+		}
+		add_to_state(index * 2u + 1u, light, active_record);
+	}
+	if (gl_LocalInvocationIndex == 0u) {
+		atomicAdd(statistics.rays, group_rays);
+	}
+}
