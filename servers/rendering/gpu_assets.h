@@ -56,6 +56,7 @@ private:
 	};
 	struct GpuTexture {
 		OwnedTexture texture;
+		Vector4 mean{ 1.0f }; // of its texels, as stored
 		uint64_t version = 0;
 	};
 	struct GpuMaterial {
@@ -69,7 +70,9 @@ private:
 	void update_materials(const RenderScene &p_scene);
 	OwnedBindingSet make_material_set(const Material &p_material) const;
 	shader::MaterialData material_data(const Material &p_material) const;
-	OwnedTexture make_texture(const SceneTexture &p_texture, const std::string &p_name);
+	// p_slot's mean times the factor.
+	float mean_of(const Material &p_material, TextureSlot p_slot, float p_factor) const;
+	OwnedTexture make_texture(const SceneTexture &p_texture, const std::string &p_name, Vector4 &r_mean);
 	OwnedTexture make_pixel(uint32_t p_rgba, const char *p_name);
 
 	RenderingDevice &device;

@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "servers/rendering/gpu_assets.h"
+#include "servers/rendering/gi_reflectance.h"
 #include "servers/rendering/texture_mips.h"
 
 #include <algorithm>
 #include <cstring>
+
+#include <glm/gtc/packing.hpp>
 
 namespace lucent {
 
 namespace {
 // Godot's default level of anisotropic filtering.
 constexpr float MAX_ANISOTROPY = 4.0f;
+
+template <typename T>
+T read_as(const std::vector<std::byte> &p_bytes) {
+	T value{};
+	std::memcpy(&value, p_bytes.data(), std::min(sizeof(T), p_bytes.size()));
+	return value;
+}
 
 AddressMode address_mode(TextureWrap p_wrap) {
 	switch (p_wrap) {
@@ -60,7 +70,7 @@ OwnedTexture GpuAssets::make_pixel(uint32_t p_rgba, const char *p_name) {
 	return texture;
 }
 
-OwnedTexture GpuAssets::make_texture(const SceneTexture &p_texture, const std::string &p_name) {
+OwnedTexture GpuAssets::make_texture(const SceneTexture &p_texture, const std::string &p_name, Vector4 &r_mean) {
 	const Image &image = *p_texture.image;
 	const uint32_t limit = device.info().max_texture_2d_texels;
 	if (image.width > limit || image.height > limit) {
@@ -74,6 +84,7 @@ OwnedTexture GpuAssets::make_texture(const SceneTexture &p_texture, const std::s
 	desc.width = image.width;
 	desc.height = image.height;
 	desc.mips = uint32_t(levels.size());
+	r_mean = desc.format == Format::RGBA16_FLOAT ? glm::unpackHalf4x16(read_as<uint64_t>(levels.back())) : glm::unpackUnorm4x8(read_as<uint32_t>(levels.back()));
 	desc.name = p_name;
 	OwnedTexture texture = device.create_texture(desc);
 	for (uint32_t mip = 0; mip < levels.size(); mip++) {
@@ -92,7 +103,7 @@ void GpuAssets::update_textures(const RenderScene &p_scene) {
 		alive[p_rid.index] = true;
 		GpuTexture &texture = textures[p_rid.index];
 		if (texture.version != p_texture.version) {
-			texture.texture = make_texture(p_texture, fmt::format("scene.texture{}", p_rid.index));
+			texture.texture = make_texture(p_texture, fmt::format("scene.texture{}", p_rid.index), texture.mean);
 			texture.version = p_texture.version;
 		}
 	});
@@ -139,6 +150,15 @@ void GpuAssets::update_gi_textures(const RenderScene &p_scene) {
 	}
 }
 
+float GpuAssets::mean_of(const Material &p_material, TextureSlot p_slot, float p_factor) const {
+	const TextureRef &ref = p_material.textures[size_t(p_slot)];
+	if (ref.texture.index >= textures.size() || !textures[ref.texture.index].texture.is_valid()) {
+		return p_factor;
+	}
+	const Vector4 &mean = textures[ref.texture.index].mean;
+	return p_factor * (ref.channel == TextureChannel::GRAYSCALE ? (mean.x + mean.y + mean.z) / 3.0f : mean[int(ref.channel)]);
+}
+
 shader::MaterialData GpuAssets::material_data(const Material &p_material) const {
 	shader::MaterialData data{};
 	data.albedo = p_material.albedo;
@@ -153,6 +173,9 @@ shader::MaterialData GpuAssets::material_data(const Material &p_material) const 
 	data.alpha_scissor_threshold = p_material.alpha_scissor_threshold;
 	data.flags = material_flags(p_material);
 	data.gi_albedo_layer = data.gi_emission_layer = -1;
+	const GiReflectance reflectance = gi_reflectance(p_material, mean_of(p_material, TextureSlot::METALLIC, p_material.metallic), mean_of(p_material, TextureSlot::ROUGHNESS, p_material.roughness));
+	data.gi_of_albedo = reflectance.of_albedo;
+	data.gi_added = reflectance.added;
 	for (uint32_t i = 0; i < MATERIAL_SLOT_COUNT; i++) {
 		const TextureRef &ref = p_material.textures[i];
 		data.uv2_mask |= ref.uv_set == 1 ? 1u << i : 0u;

@@ -31,6 +31,7 @@ Vector3 decode_half(const uint16_t *p_texel) {
 
 uint32_t GiTestScene::add_material(const Vector3 &p_albedo, const Vector3 &p_emission, bool p_double_sided) {
 	shader::MaterialData material{};
+	material.gi_of_albedo = 1.0f;
 	material.albedo = Vector4(p_albedo, 1.0f);
 	material.emission = p_emission;
 	material.roughness = 1.0f;

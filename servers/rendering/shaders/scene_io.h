@@ -66,6 +66,8 @@ struct MaterialData {
 	uint channels; // 4 bits a slot: TextureChannel of single-channel slots
 	int gi_albedo_layer; // layer of GpuScene's gi_textures (small square copies, rgba8 sRGB-decoded on read), -1: none
 	int gi_emission_layer;
+	float gi_of_albedo; // what GI's bounces reflect: albedo * gi_of_albedo + gi_added (gi_reflectance.h)
+	vec3 gi_added;
 	UvTransform uv_transforms[MATERIAL_SLOT_COUNT];
 };
 // One drawn surface of one instance, as GI's voxelizer walks them: triangle t of all GI triangles belongs to the last surface with first_triangle <= t.
@@ -98,7 +100,7 @@ struct LightData {
 INTEROP_END
 INTEROP_SIZE(InstanceData, 104)
 INTEROP_SIZE(VertexAttributes, 48)
-INTEROP_SIZE(MaterialData, 232)
+INTEROP_SIZE(MaterialData, 248)
 INTEROP_SIZE(GiSurface, 20)
 INTEROP_SIZE(LightData, 92)
 #endif

@@ -71,7 +71,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	for (uint side = 0u; side < 2u; side++) {
 		uint record = cell_first_record(packed_records) + uint(bitCount(mask & ((1u << face) - 1u)));
 		if ((mask & (1u << face)) != 0u && record < record_end(constants.cascade)) {
-			add_to_record(record, area_sum, albedo.rgb, emission, area_normal, center);
+			add_to_record(record, area_sum, triangle_reflectance(material, albedo), emission, area_normal, center);
 		}
 		if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) == 0u) {
 			return;

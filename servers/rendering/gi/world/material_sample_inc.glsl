@@ -50,6 +50,11 @@ vec4 triangle_albedo(VoxelTriangle triangle, MaterialData material, vec3 w) {
 	return albedo;
 }
 
+// What the surface sends on of the light that falls on it.
+vec3 triangle_reflectance(MaterialData material, vec4 albedo) {
+	return min(albedo.rgb * material.gi_of_albedo + material.gi_added, vec3(1.0));
+}
+
 vec3 triangle_emission(VoxelTriangle triangle, MaterialData material, vec3 w) {
 	if (material.gi_emission_layer < 0) {
 		return material.emission;
