@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "servers/rendering/gpu_assets.h"
 #include "servers/rendering/gi_reflectance.h"
+#include "servers/rendering/gpu_assets.h"
 #include "servers/rendering/texture_mips.h"
 
 #include <algorithm>
