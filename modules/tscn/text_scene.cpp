@@ -3,6 +3,7 @@
 
 #include "modules/scene/node.h"
 #include "modules/scene/node_3d.h"
+#include "modules/tscn/mesh_data.h"
 #include "servers/core/class_db.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 // What scripts and the editor keep in scenes; without effect on a picture.
 bool is_bookkeeping(const std::string &p_property) {
-	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "process_mode", "process_priority" };
+	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "process_mode", "process_priority", "shadow_mesh" };
 	return p_property.starts_with("metadata/") || std::find(std::begin(NAMES), std::end(NAMES), p_property) != std::end(NAMES);
 }
 
@@ -140,6 +141,10 @@ void connect(scene::Node &r_root, const TscnConnection &p_connection) {
 
 void set_text_property(Object &r_object, const TscnProperty &p_property, const std::string &p_source) {
 	if (is_bookkeeping(p_property.name)) {
+		return;
+	}
+	if (scene::ArrayMesh *mesh = dynamic_cast<scene::ArrayMesh *>(&r_object); mesh != nullptr && p_property.name == "_surfaces") {
+		add_mesh_surfaces(*mesh, p_property.value, p_source, p_property.line);
 		return;
 	}
 	const std::string key = fmt::format("{}|{}|{}", p_source, r_object.get_class(), p_property.name);
