@@ -71,6 +71,9 @@ void Environment::send(SceneContext &p_context) {
 	if (is_new || next.sky != sent.sky) {
 		server.environment_set_sky(rid, next.sky);
 	}
+	if (is_new || next.sky_custom_fov_degrees != sent.sky_custom_fov_degrees) {
+		server.environment_set_sky_custom_fov(rid, next.sky_custom_fov_degrees);
+	}
 	if (is_new || next.sky_rotation != sent.sky_rotation) {
 		server.environment_set_sky_orientation(rid, next.sky_rotation);
 	}
@@ -123,6 +126,7 @@ void Environment::bind(ClassBuilder<Environment> &r_class) {
 	r_class.field("background_color", &Environment::state, &State::background_color).doc("The colour of BG_COLOR.");
 	r_class.field("background_energy_multiplier", P, &Parameters::background_energy).range(0, 16, 0.01).or_greater().doc("Multiplies the light of the background, the sky included.");
 	r_class.field("sky", &Environment::state, &State::sky).doc("The sky of BG_SKY, and of ambient light from the sky.");
+	r_class.field("sky_custom_fov", P, &Parameters::sky_custom_fov_degrees).range(0, 180, 0.1).doc("Field of view that the sky is drawn with, in degrees; 0 is the camera's.");
 	r_class.field("sky_rotation", &Environment::state, &State::sky_rotation).doc("Turns the sky: Euler angles in radians.");
 	r_class.field("ambient_light_source", P, &Parameters::ambient_source).enum_of("AmbientSource").doc("Where ambient light comes from.");
 	r_class.field("ambient_light_color", &Environment::state, &State::ambient_light_color).doc("The colour of ambient light that is not the sky's.");

@@ -58,7 +58,10 @@ shader::SkyData make_sky(const RenderScene &p_scene, const GpuScene &p_gpu_scene
 	Camera camera = p_camera;
 	const Sky *sky = background_sky(p_scene, p_environment);
 	if (sky != nullptr && p_environment.sky_custom_fov_degrees > 0.0f) {
-		camera.fov_degrees = p_environment.sky_custom_fov_degrees;
+		// As in Godot: a vertical angle, whatever the camera's projection is. 180 degrees have no tangent.
+		camera.kind = Camera::Kind::PERSPECTIVE;
+		camera.keep_height = true;
+		camera.fov_degrees = std::min(p_environment.sky_custom_fov_degrees, 179.0f);
 	}
 	const Projection view_from_world = Projection(glm::transpose(camera.transform.basis));
 	data.world_direction_from_clip = glm::inverse(camera_projection(camera, p_aspect) * view_from_world);

@@ -75,6 +75,7 @@ public:
 	void environment_set_bg_color(EnvironmentRid p_environment, const Vector3 &p_linear);
 	void environment_set_bg_energy(EnvironmentRid p_environment, float p_energy);
 	void environment_set_sky(EnvironmentRid p_environment, SkyRid p_sky);
+	void environment_set_sky_custom_fov(EnvironmentRid p_environment, float p_fov_degrees); // up to 180; 0: the camera's
 	void environment_set_sky_orientation(EnvironmentRid p_environment, const Basis &p_orientation);
 	void environment_set_ambient_light(EnvironmentRid p_environment, const Vector3 &p_linear, AmbientSource p_source, float p_energy, float p_sky_contribution);
 	void environment_set_tonemap(EnvironmentRid p_environment, ToneMapper p_tone_mapper, float p_exposure, float p_white);

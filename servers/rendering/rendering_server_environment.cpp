@@ -49,6 +49,11 @@ void RenderingServer::environment_set_sky(EnvironmentRid p_environment, SkyRid p
 	impl->edit_environment(p_environment, [&](Environment &r_environment) { r_environment.sky = p_sky; });
 }
 
+void RenderingServer::environment_set_sky_custom_fov(EnvironmentRid p_environment, float p_fov_degrees) {
+	ERR_FAIL_COND_MSG(!(p_fov_degrees >= 0.0f && p_fov_degrees <= 180.0f), "{} is no field of view from 0 to 180 degrees", p_fov_degrees);
+	impl->edit_environment(p_environment, [&](Environment &r_environment) { r_environment.sky_custom_fov_degrees = p_fov_degrees; });
+}
+
 void RenderingServer::environment_set_sky_orientation(EnvironmentRid p_environment, const Basis &p_orientation) {
 	impl->edit_environment(p_environment, [&](Environment &r_environment) { r_environment.sky_rotation = p_orientation; });
 }

@@ -294,6 +294,25 @@ TEST_CASE("frame: a constant sky lights every direction alike") {
 	CHECK(pixel(stage.draw(), 0.5f, 0.5f).x == doctest::Approx(0.6f).epsilon(0.03));
 }
 
+TEST_CASE("frame: the sky keeps a field of view of its own") {
+	Stage stage;
+	const SkyRid sky = stage.server->sky_create();
+	stage.server->sky_set(sky, Sky());
+	stage.server->environment_set_sky(stage.environment, sky);
+	stage.server->environment_set_background(stage.environment, BackgroundMode::SKY);
+	const auto top_of = [&](float p_camera_degrees, float p_sky_degrees) {
+		Camera camera;
+		camera.fov_degrees = p_camera_degrees;
+		camera.transform.origin = Vector3(0, 1, 9);
+		stage.server->camera_set(stage.camera, camera);
+		stage.server->environment_set_sky_custom_fov(stage.environment, p_sky_degrees);
+		return pixel(stage.draw(), 0.5f, 0.0f);
+	};
+	const Vector3 wide = top_of(120.0f, 0.0f);
+	CHECK(glm::length(top_of(20.0f, 120.0f) - wide) < 1e-4f);
+	CHECK(glm::length(top_of(20.0f, 0.0f) - wide) > 0.05f);
+}
+
 TEST_CASE("frame: tone mapping curves") {
 	Stage stage;
 	stage.add_sun(false);

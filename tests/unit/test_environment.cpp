@@ -53,6 +53,8 @@ TEST_CASE("the environment reaches the server, linear, and once a frame") {
 	environment->set("background_mode", 2);
 	environment->set("ambient_light_color", Color{ 0.5f, 0.5f, 0.5f, 1.0f });
 	environment->set("sdfgi_enabled", true);
+	CHECK(environment->set("sky_custom_fov", 75.0));
+	CHECK_FALSE(environment->set("sky_custom_fov", 181.0));
 	auto sky = std::make_shared<scene::Sky>();
 	auto sky_material = std::make_shared<scene::ProceduralSkyMaterial>();
 	sky->set_material(sky_material);
@@ -64,6 +66,7 @@ TEST_CASE("the environment reaches the server, linear, and once a frame") {
 	REQUIRE(snapshot.environments.get(rid));
 	CHECK(snapshot.environments.get(rid)->ambient_color.x == doctest::Approx(0.21404).epsilon(1e-4));
 	CHECK(snapshot.environments.get(rid)->sdfgi.enabled);
+	CHECK(snapshot.environments.get(rid)->sky_custom_fov_degrees == 75.0f);
 	const SkyRid sky_rid = snapshot.environments.get(rid)->sky;
 	REQUIRE(snapshot.skies.get(sky_rid));
 	CHECK(snapshot.skies.get(sky_rid)->sky_top_color.z == doctest::Approx(srgb_to_linear(0.55f)));
