@@ -2,6 +2,7 @@
 #include "modules/app/bench_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/parse_error.h"
 #include "modules/app/suggestion.h"
 
 #include <CLI/CLI.hpp>
@@ -131,7 +132,7 @@ Result<BenchOptions> parse_bench_options(const std::vector<std::string> &p_args)
 		options.exit = true;
 		return options;
 	} catch (const CLI::ParseError &error) {
-		return make_error("{} ('lucent bench {} --help' explains)", error.what(), kind.value()->name);
+		return make_error("{}", parse_error_text(app, error));
 	}
 	if (!size.empty()) {
 		RenderOptions sized;

@@ -2,6 +2,7 @@
 #include "modules/app/compare_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/parse_error.h"
 
 #include <CLI/CLI.hpp>
 
@@ -88,7 +89,7 @@ Result<CompareOptions> parse_compare_options(const std::vector<std::string> &p_a
 		options.exit = true;
 		return options;
 	} catch (const CLI::ParseError &error) {
-		return make_error("{} ('lucent compare --help' explains)", error.what());
+		return make_error("{}", parse_error_text(app, error));
 	}
 	const size_t colon = layer.find(':');
 	options.layer_a = layer.substr(0, colon);

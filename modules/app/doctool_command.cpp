@@ -3,6 +3,7 @@
 #include "modules/app/exit_codes.h"
 #include "modules/app/register_modules.h"
 #include "modules/scene/class_documentation.h"
+#include "servers/core/class_db.h"
 #include "servers/core/log.h"
 
 #include <cstdio>
@@ -32,6 +33,7 @@ int doctool_command(const std::vector<std::string> &p_args) {
 		log_error("{}", status.error().message);
 		return EXIT_OUTPUT;
 	}
+	std::printf("%s: %zu classes\n", p_args[0].c_str(), ClassDB::get_class_list().size());
 	return EXIT_OK;
 }
 

@@ -7,6 +7,12 @@
 
 namespace lucent {
 
+#ifdef __clang__
+static const char COMPILER[] = __VERSION__; // names itself: "Clang 14 …"
+#else
+static const char COMPILER[] = "GCC " __VERSION__;
+#endif
+
 static const char HELP[] = "usage: lucent info\n"
 						   "\n"
 						   "Lists the usable Vulkan devices, best first, with the optional features that each has.\n"
@@ -46,7 +52,7 @@ int info_command(const std::vector<std::string> &p_args) {
 		std::fputs(EXIT_CODES_HELP, stdout);
 		return EXIT_OK;
 	}
-	std::printf("lucent %s, built by %s\n", LUCENT_VERSION, __VERSION__);
+	std::printf("lucent %s, built by %s\n", LUCENT_VERSION, COMPILER);
 	const Result<std::vector<DeviceInfo>> devices = list_vulkan_devices();
 	if (!devices) {
 		log_error("{}", devices.error().message);

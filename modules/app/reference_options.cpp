@@ -2,6 +2,7 @@
 #include "modules/app/reference_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/parse_error.h"
 #include "modules/app/suggestion.h"
 
 #include <CLI/CLI.hpp>
@@ -83,7 +84,7 @@ Result<ReferenceOptions> parse_reference_options(const std::vector<std::string> 
 		options.exit = true;
 		return options;
 	} catch (const CLI::ParseError &error) {
-		return make_error("{} ('lucent reference --help' explains)", error.what());
+		return make_error("{}", parse_error_text(app, error));
 	}
 	if (!size.empty()) {
 		if (const Status status = parse_size(size, options.scene); !status) {

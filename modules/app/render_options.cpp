@@ -2,6 +2,7 @@
 #include "modules/app/render_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/parse_error.h"
 #include "modules/app/suggestion.h"
 #include "servers/rendering/rendering_server.h"
 
@@ -154,7 +155,7 @@ Result<ParsedOptions> parse_render_options(const std::vector<std::string> &p_arg
 		parsed.exit = true;
 		return parsed;
 	} catch (const CLI::ParseError &error) {
-		return make_error("{} ('lucent render --help' explains)", error.what());
+		return make_error("{}", parse_error_text(app, error));
 	}
 	if (!size.empty()) {
 		if (Result<Ok> status = parse_size(size, options); !status) {

@@ -25,7 +25,7 @@ Status RenderSession::load(const std::string &p_path) {
 	}
 	const auto packed = std::dynamic_pointer_cast<scene::PackedScene>(resource.value());
 	if (!packed) {
-		return make_error("{}: is a {}, not a scene", p_path, resource.value()->get_class());
+		return make_error("{}: expected a scene, found a resource of class {}", p_path, resource.value()->get_class());
 	}
 	Result<std::unique_ptr<scene::Node>> scene = packed->instantiate();
 	if (!scene) {

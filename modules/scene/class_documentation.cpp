@@ -2,9 +2,9 @@
 #include "modules/scene/class_documentation.h"
 
 #include "servers/core/class_db.h"
+#include "servers/core/file_io.h"
 
 #include <filesystem>
-#include <fstream>
 
 namespace lucent::scene {
 
@@ -154,11 +154,9 @@ Status write_class_xml(const std::string &p_directory) {
 	}
 	for (const std::string &name : ClassDB::get_class_list()) {
 		const std::string path = (std::filesystem::path(p_directory) / (name + ".xml")).string();
-		std::ofstream file(path, std::ios::binary);
-		file << class_xml(name);
-		file.close();
-		if (!file) {
-			return make_error("{}: cannot write the file", path);
+		const std::string xml = class_xml(name);
+		if (const Status status = write_file(path, std::as_bytes(std::span(xml))); !status) {
+			return status.error();
 		}
 	}
 	return Ok();

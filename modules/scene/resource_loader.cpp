@@ -43,7 +43,10 @@ Result<Ref<Resource>> ResourceLoader::load(const std::string &p_path) {
 		return present;
 	}
 	if (!std::filesystem::exists(path, error)) {
-		return make_error("{}: there is no such file", p_path);
+		return make_error("{}: there is no such file", p_path.empty() ? "''" : p_path);
+	}
+	if (std::filesystem::is_directory(path, error)) {
+		return make_error("{}: is a folder, expected a file", p_path);
 	}
 	const auto found = loaders().find(path_extension(key));
 	if (found == loaders().end()) {

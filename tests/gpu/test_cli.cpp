@@ -138,7 +138,8 @@ TEST_CASE("cli: wrong arguments are refused before anything is drawn") {
 	check_refused(render(folder, scene, "--frames 0"), folder, EXIT_USAGE, "--frames");
 	check_refused(render(folder, scene, "--aov albedoo"), folder, EXIT_USAGE, "did you mean 'albedo'");
 	check_refused(render(folder, scene, "--debug-view nothing"), folder, EXIT_USAGE, "--debug-view");
-	check_refused(render(folder, scene, "--nonsense"), folder, EXIT_USAGE, "--nonsense");
+	check_refused(render(folder, scene, "--nonsense"), folder, EXIT_USAGE, "no option '--nonsense'");
+	check_refused(render(folder, scene, "--framse 3"), folder, EXIT_USAGE, "did you mean '--frames'");
 	check_refused(lucent_command("render '" + scene + "'"), folder, EXIT_USAGE, "-o");
 	check_refused(lucent_command("render '" + scene + "' -o x.bmp"), folder, EXIT_USAGE, ".png");
 	check_refused(render(folder, scene, "--device 'no such device'"), folder, EXIT_DEVICE, "no such device");
@@ -184,7 +185,7 @@ TEST_CASE("cli: files that can't be read") {
 	const Folder folder;
 	check_refused(render(folder, (folder.path / "missing.tscn").string()), folder, EXIT_BAD_INPUT, "missing.tscn");
 	check_refused(render(folder, (folder.path / "missing.glb").string()), folder, EXIT_BAD_INPUT, "missing.glb");
-	check_refused(render(folder, folder.path.string()), folder, EXIT_BAD_INPUT, "error");
+	check_refused(render(folder, folder.path.string()), folder, EXIT_BAD_INPUT, "is a folder");
 	check_refused(render(folder, folder.file("scene.obj", "o cube\n")), folder, EXIT_BAD_INPUT, "scene.obj");
 	check_refused(render(folder, folder.file("empty.tscn", "")), folder, EXIT_BAD_INPUT, "empty.tscn");
 	check_refused(render(folder, folder.file("truncated.glb", std::string("glTF\x02\0\0\0\0\x10\0\0\x20\0\0\0JSON{\"as", 27))), folder, EXIT_BAD_INPUT, "truncated.glb");
