@@ -4,7 +4,7 @@
 #define EMITTER_SAMPLE_INC
 #include "servers/rendering/gi/sdfgi/record_rays_inc.glsl"
 
-#define NEAR_EMITTERS_CELLS 3.0
+#define NEAR_EMITTERS_CELLS 2.0
 
 // A point on an emitter: a column of its face with surface in it.
 vec3 emitter_point_m(WorldRecord record, vec2 u) {
