@@ -12,9 +12,9 @@ namespace lucent {
 
 namespace {
 
-// What scripts and the editor keep in scenes; without effect on a picture.
+// What scripts, the editor and importers keep in scenes; without effect on a picture.
 bool is_bookkeeping(const std::string &p_property) {
-	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "process_mode", "process_priority", "shadow_mesh" };
+	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "process_mode", "process_priority", "shadow_mesh", "blend_shape_mode", "lightmap_size_hint" };
 	return p_property.starts_with("metadata/") || std::find(std::begin(NAMES), std::end(NAMES), p_property) != std::end(NAMES);
 }
 
