@@ -29,21 +29,27 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	const float size = 1.0 / float(WORLD_SUB_VOXELS);
 	TriangleBoxTest test = make_box_test(triangle.v, size, CELL_TOUCH);
 	uvec2 bits = uvec2(0u);
-	for (uint i = 0u; i < 64u; i++) {
-		vec3 low = vec3(cell) + vec3(uvec3(i & 3u, (i >> 2) & 3u, i >> 4)) * size;
-		if (!touches_box(test, low - CELL_TOUCH)) {
-			continue;
-		}
-		if (alpha_tested) {
-			vec3 w = clamped_barycentric(triangle.v, low + 0.5 * size);
-			if (triangle_albedo(triangle, material, w).a < alpha_threshold(material)) {
-				continue;
+	// The sub-voxels in the triangle's box; rounding must not cost one, touches_box decides.
+	const float ROUNDING = 1e-3;
+	ivec3 first = ivec3(max(ceil((test.low + CELL_TOUCH - vec3(cell)) / size - ROUNDING), vec3(0.0)));
+	ivec3 last = ivec3(min(floor((test.high + CELL_TOUCH - vec3(cell)) / size + ROUNDING), vec3(3.0)));
+	for (int z = first.z; z <= last.z; z++) {
+		for (int y = first.y; y <= last.y; y++) {
+			for (int x = first.x; x <= last.x; x++) {
+				vec3 low = vec3(cell) + vec3(float(x), float(y), float(z)) * size;
+				if (!touches_box(test, low - CELL_TOUCH)) {
+					continue;
+				}
+				if (alpha_tested) {
+					vec3 w = clamped_barycentric(triangle.v, low + 0.5 * size);
+					if (triangle_albedo(triangle, material, w).a < alpha_threshold(material)) {
+						continue;
+					}
+				}
+				uint bit = 1u << uint(x + 4 * y + 16 * (z & 1));
+				bits.x |= z < 2 ? bit : 0u;
+				bits.y |= z < 2 ? 0u : bit;
 			}
-		}
-		if (i < 32u) {
-			bits.x |= 1u << i;
-		} else {
-			bits.y |= 1u << (i - 32u);
 		}
 	}
 	if ((bits.x | bits.y) == 0u) {
