@@ -16,25 +16,16 @@ struct ScaleCase {
 	std::function<void(SpeedScene &)> apply;
 };
 
-// Counts are read whenever a set of rays ends: with sets of one frame, in every frame.
-SdfgiSettings counted(SdfgiSettings p_settings) {
-	p_settings.frames_to_converge = 1;
-	return p_settings;
-}
-
 void add_setting(std::vector<ScaleCase> &r_cases, const char *p_group, uint32_t p_value, uint32_t SdfgiSettings::*p_setting) {
 	r_cases.push_back({ p_group, std::to_string(p_value), double(p_value), [=](SpeedScene &r_scene) {
-						   SdfgiSettings settings = counted(r_scene.sdfgi());
+						   SdfgiSettings settings = r_scene.sdfgi();
 						   settings.*p_setting = p_value;
 						   r_scene.set_sdfgi(settings);
 					   } });
 }
 
 void add_plain(std::vector<ScaleCase> &r_cases, const char *p_group, const std::string &p_label, double p_x, const std::function<void(SpeedScene &)> &p_apply) {
-	r_cases.push_back({ p_group, p_label, p_x, [=](SpeedScene &r_scene) {
-						   r_scene.set_sdfgi(counted(r_scene.sdfgi()));
-						   p_apply(r_scene);
-					   } });
+	r_cases.push_back({ p_group, p_label, p_x, p_apply });
 }
 
 void add_load_cases(std::vector<ScaleCase> &r_cases, const SpeedPreset &p_preset) {
@@ -83,7 +74,10 @@ ScalePoint measure(SpeedScene &r_scene, const SpeedPreset &p_preset, const Scale
 	p_case.apply(r_scene);
 	const FrameSample first = r_scene.bench.draw();
 	point.first_ms = first.gi_ms();
-	point.gi = first.stats.gi;
+	point.gi = first.stats.gi; // the frame with the most rays
+	for (uint32_t turn = 1; turn < r_scene.sdfgi().frames_to_converge; turn++) {
+		r_scene.bench.draw();
+	}
 	std::vector<FrameSample> frames;
 	for (uint32_t i = 0; i < p_preset.scaling_frames; i++) {
 		r_scene.set_sun(1.0f + 0.001f * float(i % 2 + 1));

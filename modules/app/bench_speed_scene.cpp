@@ -38,6 +38,7 @@ Status SpeedScene::load(const BenchOptions &p_options) {
 	base_sdfgi = bench.environment()->sdfgi;
 	base_sdfgi.cascades = preset.cascades != 0 ? preset.cascades : base_sdfgi.cascades;
 	base_sdfgi.frames_to_converge = preset.frames_to_converge != 0 ? preset.frames_to_converge : base_sdfgi.frames_to_converge;
+	base_sdfgi.count_every_frame = true;
 	set_sdfgi(base_sdfgi);
 	return Ok();
 }

@@ -338,7 +338,7 @@ struct Viewport {
 struct GiStats {
 	uint64_t frames = 0; // since the last reset
 	bool converged = false; // nothing will change until the scene does
-	uint64_t rays = 0; // most in a frame since the last reset; 0 at rest
+	uint64_t rays = 0; // most in a frame since the last reset, or with SdfgiSettings::count_every_frame in the last frame; 0 at rest
 	uint64_t surface_cells = 0; // alive, all cascades
 	uint64_t surface_records = 0;
 	uint64_t probes = 0;

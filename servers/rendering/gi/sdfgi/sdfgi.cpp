@@ -61,7 +61,7 @@ struct Sdfgi::Impl {
 	uint64_t peak_rays = 0; // in a frame, since anything changed
 	// Of the frame that was last recorded:
 	bool checks_light = false; // its counts are to be read
-	bool may_settle = false; // it traced no more than the probes' rays, and these have been round often enough
+	bool may_settle = false; // it traced no more than the probes' rays, these have been round often enough, and it is its turn to be checked
 	GiStats stats;
 
 	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
@@ -179,7 +179,8 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	const uint32_t probe_round = (PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS + settings.probe_rays - 1) / settings.probe_rays;
 	may_settle = !traces && !lights_lamps && frame >= PROBE_RESTART_FRAMES + PROBE_LEAST_VISITS * probe_round;
 	// The frame that traces last tells how many rays there are.
-	checks_light = (traces && turns_done == turns) || (may_settle && frame % CHECK_PERIOD_FRAMES == 0);
+	may_settle = may_settle && frame % CHECK_PERIOD_FRAMES == 0;
+	checks_light = settings.count_every_frame || (traces && turns_done == turns) || may_settle;
 	stats.frames++;
 }
 
@@ -192,6 +193,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	live.normal_bias = p_settings.normal_bias;
 	live.probe_bias = p_settings.probe_bias;
 	live.use_occlusion = p_settings.use_occlusion;
+	live.count_every_frame = p_settings.count_every_frame;
 	const bool relight = live.bounce_feedback != i.settings.bounce_feedback || live.read_sky_light != i.settings.read_sky_light;
 	if (i.world == nullptr || live != p_settings) {
 		i.create(p_settings);
@@ -231,7 +233,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 		i.world->collect_emitters(r_recorder);
 	}
 	i.checks_light = false;
-	i.stats.rays = i.converged ? 0 : i.peak_rays;
+	i.stats.rays = i.converged || p_settings.count_every_frame ? 0 : i.peak_rays;
 	if (!i.converged) {
 		i.light_frame(r_recorder);
 	}
@@ -245,7 +247,7 @@ void Sdfgi::after_frame() {
 	const std::vector<shader::SdfgiStatistics> statistics = i.device.read_back_buffer<shader::SdfgiStatistics>(i.statistics);
 	const std::vector<shader::CascadeCounts> counts = i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle());
 	i.peak_rays = std::max<uint64_t>(i.peak_rays, statistics[0].rays);
-	i.stats.rays = i.peak_rays;
+	i.stats.rays = i.settings.count_every_frame ? statistics[0].rays : i.peak_rays;
 	i.stats.surface_cells = 0;
 	i.stats.surface_records = 0;
 	for (uint32_t c = 0; c < i.settings.cascades; c++) {

@@ -37,6 +37,8 @@ struct SdfgiSettings {
 	uint32_t frames_to_converge = 16; // frames in one full set of rays (8 rays a frame and surface record), a power of two
 	uint32_t ray_cache_mib = 96; // 1 to 1024; what gather rays met is kept, 4 bytes a ray: with less room than a full set needs, fewer are gathered from
 
+	bool count_every_frame = false; // GiStats' rays are those of each frame; waits for the device after every frame
+
 	bool operator==(const SdfgiSettings &) const = default;
 };
 
