@@ -31,14 +31,18 @@ vec3 gathered_by_lane(WorldRecord record, RayCache cache, uint turns, uint i, ui
 	uint seed = record_seed(record);
 	vec3 normal = record_normal(record);
 	vec3 reflected = vec3(0.0);
-	vec3 sky = vec3(0.0);
+	uint sky_turns = 0u;
 	for (uint turn = 0u; turn < turns; turn++) {
 		uint met = ray_cache[ray_cache_place(cache, turn, i, lane)];
 		if (met < RAY_MET_SKY) {
 			reflected += vec4_from_half4(world_record_light[met].xy).rgb;
-		} else if (met == RAY_MET_SKY) {
-			sky += world_sky_radiance(gather_direction(turn * RECORD_LANES + lane, seed, normal));
 		}
+		sky_turns |= met == RAY_MET_SKY ? 1u << turn : 0u;
+	}
+	// In a loop of its own: a CPU's lanes run all code of a loop's body.
+	vec3 sky = vec3(0.0);
+	for (; sky_turns != 0u; sky_turns &= sky_turns - 1u) {
+		sky += world_sky_radiance(gather_direction(uint(findLSB(sky_turns)) * RECORD_LANES + lane, seed, normal));
 	}
 	return reflected * constants.feedback + sky;
 }

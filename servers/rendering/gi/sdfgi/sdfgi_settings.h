@@ -34,7 +34,7 @@ struct SdfgiSettings {
 	uint32_t grid_size_cells = 128; // 64 to 256, a multiple of 32; cells an axis of each cascade
 	uint32_t probe_spacing_cells = 8; // 4, 8 or 16
 	uint32_t probe_rays = 16; // rays a probe and frame
-	uint32_t frames_to_converge = 16; // frames in one full set of rays (8 rays a frame and surface record), a power of two
+	uint32_t frames_to_converge = 16; // frames in one full set of rays (8 rays a frame and surface record), a power of two, at most 32
 	uint32_t ray_cache_mib = 96; // 1 to 1024; what gather rays met is kept, 4 bytes a ray: with less room than a full set needs, fewer are gathered from
 
 	bool count_every_frame = false; // GiStats' rays are those of each frame; waits for the device after every frame
