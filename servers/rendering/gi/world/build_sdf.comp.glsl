@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exact Euclidean distance between cells' centres, one axis a pass: minimum over a line of (distance so far)^2 + offset^2.
-// Pass x reads the occupancy, pass z writes the packed result; between them squared distances are 16-bit words.
+// Pass x reads the occupancy, pass z writes the packed result; between them squared distances are words. A work group is a listed brick; elsewhere everything is far already.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/world_inc.glsl"
@@ -8,7 +8,7 @@
 #define BUILD_SDF_FROM 20 // uint a cell: squared distance in cells^2
 #define BUILD_SDF_TO 21
 #define BUILD_SDF_PACKED 22
-#define BUILD_SDF_NEAR 23 // uint a brick of the window: mark_near_bricks
+#define BUILD_SDF_LIST 23 // mark_near_bricks
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
@@ -23,16 +23,15 @@ layout(set = 0, binding = BUILD_SDF_TO, scalar) writeonly buffer ToBlock {
 layout(set = 0, binding = BUILD_SDF_PACKED, scalar) writeonly buffer PackedBlock {
 	uint sdf[];
 };
-layout(set = 0, binding = BUILD_SDF_NEAR, scalar) readonly buffer NearBlock {
-	uint near_bricks[];
+layout(set = 0, binding = BUILD_SDF_LIST, scalar) readonly buffer ListBlock {
+	NearBrickHeader header;
+	uint near_list[];
 };
 layout(push_constant, scalar) uniform BuildSdfPush {
 	BuildSdfConstants constants;
 };
 
 shared uint group_bytes[64];
-
-#define FAR_SQUARED 4096u // more than (WORLD_SDF_RADIUS_CELLS + 1)^2
 
 uint line_index(uvec3 cell) {
 	return (cell.z * world.grid_size + cell.y) * world.grid_size + cell.x;
@@ -68,7 +67,7 @@ uint distance_along_x(ivec3 cell) {
 			break;
 		}
 	}
-	return min(uint(best * best), FAR_SQUARED);
+	return min(uint(best * best), WORLD_SDF_FAR_SQUARED);
 }
 
 uint distance_along_line(uvec3 cell) {
@@ -90,14 +89,9 @@ uint distance_along_line(uvec3 cell) {
 }
 
 void main() {
-	uvec3 cell = gl_GlobalInvocationID;
-	// A group is a brick of the window.
-	uint bricks = world.grid_size / WORLD_BRICK_CELLS;
-	bool near = near_bricks[(gl_WorkGroupID.z * bricks + gl_WorkGroupID.y) * bricks + gl_WorkGroupID.x] != 0u;
-	uint best = FAR_SQUARED;
-	if (near) {
-		best = constants.axis == 0u ? distance_along_x(ivec3(cell)) : distance_along_line(cell);
-	}
+	uint brick = near_list[gl_WorkGroupID.x];
+	uvec3 cell = (uvec3(brick, brick >> 10, brick >> 20) & 1023u) * WORLD_BRICK_CELLS + gl_LocalInvocationID;
+	uint best = constants.axis == 0u ? distance_along_x(ivec3(cell)) : distance_along_line(cell);
 	if (constants.axis < 2u) {
 		to_squared[line_index(cell)] = best;
 		return;

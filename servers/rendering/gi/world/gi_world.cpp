@@ -64,6 +64,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	distance_scratch[1] = make_buffer("gi_world.distance_scratch1", uint64_t(cell_count) * 4);
 	near_bricks[0] = make_buffer("gi_world.near_bricks0", uint64_t(bricks) * 4);
 	near_bricks[1] = make_buffer("gi_world.near_bricks1", uint64_t(bricks) * 4);
+	near_list = make_buffer("gi_world.near_list", sizeof(shader::NearBrickHeader) + uint64_t(bricks) * 4, BUFFER_STORAGE | BUFFER_INDIRECT);
 	surfaces.resize(p_desc.cascades);
 	sky_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
 }
@@ -81,8 +82,8 @@ void GiWorld::upload_params(PassRecorder &r_recorder) {
 	r_recorder.update_buffer(params_buffer, 0, std::as_bytes(std::span(&params, 1)));
 }
 
-void GiWorld::clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count) {
-	const shader::ClearWordsConstants constants = { .first = p_first, .count = p_count, .value = 0 };
+void GiWorld::clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count, uint32_t p_value) {
+	const shader::ClearWordsConstants constants = { .first = p_first, .count = p_count, .value = p_value };
 	r_recorder.compute(p_name, Shader::CLEAR_WORDS).write(0, p_buffer).constants(constants).dispatch_groups(std::min(4096u, (p_count + 63) / 64));
 }
 
@@ -170,13 +171,19 @@ void GiWorld::place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade) 
 void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
 	const uint32_t n = world_desc.grid_size;
 	const uint32_t bricks = n / WORLD_BRICK_CELLS;
-	for (uint32_t axis = 0; axis < 3; axis++) {
-		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
-		r_recorder.compute("gi_world.mark_near_bricks", Shader::MARK_NEAR_BRICKS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, near_bricks[(axis & 1) ^ 1]).write(OUT_1, near_bricks[axis & 1]).constants(constants).dispatch_threads(bricks, bricks, bricks);
+	clear_words(r_recorder, "gi_world.clear_near_list", near_list, 0, 1);
+	clear_words(r_recorder, "gi_world.clear_near_list", near_list, 1, 2, 1);
+	clear_words(r_recorder, "gi_world.clear_sdf", sdf, p_cascade * (n * n * n / 4), n * n * n / 4, 0xFFFFFFFFu);
+	for (const OwnedBuffer &scratch : distance_scratch) {
+		clear_words(r_recorder, "gi_world.clear_distances", scratch, 0, n * n * n, WORLD_SDF_FAR_SQUARED);
 	}
 	for (uint32_t axis = 0; axis < 3; axis++) {
 		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
-		r_recorder.compute("gi_world.build_sdf", Shader::BUILD_SDF).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, distance_scratch[(axis & 1) ^ 1]).write(OUT_1, distance_scratch[axis & 1]).write(OUT_2, sdf).read(OUT_3, near_bricks[0]).constants(constants).dispatch_threads(n, n, n);
+		r_recorder.compute("gi_world.mark_near_bricks", Shader::MARK_NEAR_BRICKS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, near_bricks[(axis & 1) ^ 1]).write(OUT_1, near_bricks[axis & 1]).read_write(OUT_2, near_list).constants(constants).dispatch_threads(bricks, bricks, bricks);
+	}
+	for (uint32_t axis = 0; axis < 3; axis++) {
+		const shader::BuildSdfConstants constants = { .cascade = p_cascade, .axis = axis };
+		r_recorder.compute("gi_world.build_sdf", Shader::BUILD_SDF).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(OUT_0, distance_scratch[(axis & 1) ^ 1]).write(OUT_1, distance_scratch[axis & 1]).write(OUT_2, sdf).read(OUT_3, near_list).constants(constants).dispatch_indirect(near_list);
 	}
 }
 

@@ -69,7 +69,7 @@ public:
 
 private:
 	OwnedBuffer make_buffer(const char *p_name, uint64_t p_size_bytes, uint32_t p_usage = BUFFER_STORAGE);
-	void clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count);
+	void clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count, uint32_t p_value = 0);
 	void build_sdf(PassRecorder &r_recorder, uint32_t p_cascade);
 	uint32_t cull_surfaces(const GiSceneView &p_scene, uint32_t p_cascade, uint32_t &r_triangles);
 
@@ -94,6 +94,7 @@ private:
 	OwnedBuffer column_stretches;
 	OwnedBuffer distance_scratch[2];
 	OwnedBuffer near_bricks[2];
+	OwnedBuffer near_list;
 	std::vector<OwnedBuffer> surfaces; // by cascade
 	SamplerHandle sky_sampler;
 };

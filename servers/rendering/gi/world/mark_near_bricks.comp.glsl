@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Which bricks have a stored cell within WORLD_SDF_RADIUS_BRICKS bricks an axis, one axis a pass: the distance field is only computed there.
+// Which bricks have a stored cell within WORLD_SDF_RADIUS_BRICKS bricks an axis, one axis a pass, the last one lists them: the distance field is only computed there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/world_inc.glsl"
 
 #define MARK_NEAR_BRICKS_FROM 20 // uint a brick of the window, 0 or 1
 #define MARK_NEAR_BRICKS_TO 21
+#define MARK_NEAR_BRICKS_LIST 22
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(set = 0, binding = WORLD_OCCUPANCY, scalar) readonly buffer OccupancyBlock {
@@ -16,6 +17,10 @@ layout(set = 0, binding = MARK_NEAR_BRICKS_FROM, scalar) readonly buffer FromBlo
 };
 layout(set = 0, binding = MARK_NEAR_BRICKS_TO, scalar) writeonly buffer ToBlock {
 	uint to_near[];
+};
+layout(set = 0, binding = MARK_NEAR_BRICKS_LIST, scalar) buffer ListBlock {
+	NearBrickHeader header;
+	uint near_list[];
 };
 layout(push_constant, scalar) uniform MarkNearPush {
 	BuildSdfConstants constants;
@@ -37,6 +42,9 @@ void main() {
 		} else {
 			near |= from_near[(other.z * bricks + other.y) * bricks + other.x];
 		}
+	}
+	if (axis == 2u && near != 0u) {
+		near_list[atomicAdd(header.groups.x, 1u)] = uint(brick.x) | (uint(brick.y) << 10) | (uint(brick.z) << 20);
 	}
 	to_near[(brick.z * bricks + brick.y) * bricks + brick.x] = near != 0u ? 1u : 0u;
 }

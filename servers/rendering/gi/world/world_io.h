@@ -38,6 +38,7 @@
 
 #define WORLD_SDF_SCALE 16.0
 #define WORLD_SDF_RADIUS_CELLS 15
+#define WORLD_SDF_FAR_SQUARED 4096u // cells^2: more than (WORLD_SDF_RADIUS_CELLS + 1)^2
 #define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
 
 // Fixed-point scales of the accumulators: areas are in cells^2, so one record can take 4096 cell faces.
@@ -95,6 +96,10 @@ struct BuildSdfConstants {
 	uint cascade;
 	uint axis;
 };
+// The bricks that build_sdf works on: this, then a brick of the window each (x | y << 10 | z << 20).
+struct NearBrickHeader {
+	uvec3 groups; // indirect arguments
+};
 struct ClearWordsConstants {
 	uint first;
 	uint count;
@@ -114,6 +119,7 @@ struct Emitter {
 INTEROP_END
 INTEROP_SIZE(GiCascade, 24)
 INTEROP_SIZE(GiWorldParams, 216)
+INTEROP_SIZE(NearBrickHeader, 12)
 INTEROP_SIZE(WorldCell, 12)
 INTEROP_SIZE(WorldRecord, 24)
 INTEROP_SIZE(RecordAccumulator, 52)
