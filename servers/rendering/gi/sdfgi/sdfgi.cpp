@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t PROBE_TILES_A_ROW = 256;
 constexpr uint32_t PROBE_AVERAGE_VISITS = 8;
+constexpr uint32_t MAX_TURNS = 32; // light_records.comp.glsl keeps a bit a turn
 // Light is settled when fewer than this share of the lit records moved by over SETTLED_CHANGE in a frame, or after this many frames.
 constexpr double SETTLED_SHARE = 0.01;
 constexpr uint32_t MAX_FRAMES = 400;
@@ -64,6 +65,7 @@ struct Sdfgi::Impl {
 	bool may_settle = false; // it traced no more than the probes' rays, these have been round often enough, and it is its turn to be checked
 	GiStats stats;
 
+	uint32_t turns() const { return std::clamp(settings.frames_to_converge, 1u, MAX_TURNS); }
 	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
 	void create(const SdfgiSettings &p_settings);
 	SdfgiPassInputs pass_inputs() const;
@@ -90,7 +92,7 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
 	probe_list = device.create_buffer({ .size_bytes = uint64_t(settings.cascades) * (PROBE_LIST_HEADER_WORDS + probes_in_cascade()) * 4, .usage = BUFFER_STORAGE | BUFFER_INDIRECT, .name = "sdfgi.probe_list" });
 	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
-	ray_cache_words = uint32_t(std::min<uint64_t>(uint64_t(settings.ray_cache_mib) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * settings.frames_to_converge));
+	ray_cache_words = uint32_t(std::min<uint64_t>(uint64_t(settings.ray_cache_mib) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * turns()));
 	ray_cache = device.create_buffer({ .size_bytes = uint64_t(ray_cache_words) * 4, .name = "sdfgi.ray_cache" });
 	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
 		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
@@ -151,7 +153,7 @@ void Sdfgi::Impl::restart(bool p_geometry) {
 void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	r_recorder.clear_buffer(statistics);
 	const SdfgiPassInputs inputs = pass_inputs();
-	const uint32_t turns = settings.frames_to_converge;
+	const uint32_t turns = this->turns();
 	const bool traces = turns_done < turns;
 	const bool lights_lamps = light_count > 0 && lamp_turns_done < turns;
 	const auto rays = [&](uint32_t p_cascade, uint32_t p_turn) { return shader::RecordRaysConstants{ .cascade = p_cascade, .turn = p_turn, .turns = turns, .cache_capacity = ray_cache_words, .light_count = light_count }; };
