@@ -16,7 +16,7 @@ namespace lucent {
 
 namespace {
 
-constexpr uint32_t CPU_FRAMES = 76; // the scenes here settle after 28
+constexpr uint32_t CPU_FRAMES = 76; // the scenes here settle after 40
 constexpr uint32_t CPU_GRID = 64;
 constexpr uint32_t GPU_FRAMES = 512;
 

@@ -46,7 +46,7 @@ SpeedState run_state(SpeedScene &r_scene, uint32_t p_frames, const std::string &
 SpeedPreset speed_preset(const BenchOptions &p_options, const DeviceInfo &p_device) {
 	SpeedPreset preset;
 	if (p_options.preset.empty() ? is_cpu_device(p_device) : p_options.preset == "cpu") {
-		preset = { .cpu = true, .width = 240, .height = 135, .grid = 64, .frames = 4, .settle_frames = 30, .cascades = 2, .frames_to_converge = 1, .frames_a_second = 15.0f, .scaling_frames = 1, .max_instanced_triangles = 1'000'000, .max_lights = 100 };
+		preset = { .cpu = true, .width = 240, .height = 135, .grid = 64, .frames = 4, .settle_frames = 80, .cascades = 2, .frames_to_converge = 1, .frames_a_second = 15.0f, .scaling_frames = 1, .max_instanced_triangles = 1'000'000, .max_lights = 100 };
 	}
 	preset.frames = p_options.frames != 0 ? p_options.frames : preset.frames;
 	preset.grid = p_options.grid != 0 ? p_options.grid : preset.grid;

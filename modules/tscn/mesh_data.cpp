@@ -2,7 +2,10 @@
 #include "modules/tscn/mesh_data.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <glm/gtc/constants.hpp>
 
 namespace lucent {

@@ -6,7 +6,7 @@
 namespace lucent {
 
 Vector2 specular_reflectance(float p_roughness) {
-	const float r = std::clamp(p_roughness, 0.0f, 1.0f);
+	const float r = std::clamp(p_roughness, 0.05f, 1.0f); // the BRDF knows none much smoother
 	const float of_f0 = ((0.4443f * r - 1.4526f) * r + 0.4874f) * r + 0.9183f;
 	const float of_f90 = ((0.0870f * r - 0.0984f) * r - 0.0361f) * r + 0.0518f;
 	return { std::min(of_f0, 1.0f), std::max(of_f90, 0.0f) };

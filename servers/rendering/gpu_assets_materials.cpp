@@ -75,6 +75,7 @@ OwnedTexture GpuAssets::make_texture(const SceneTexture &p_texture, const std::s
 	const uint32_t limit = device.info().max_texture_2d_texels;
 	if (image.width > limit || image.height > limit) {
 		log_warning("a texture of {}x{} exceeds the device's limit of {} texels, it is drawn white", image.width, image.height, limit);
+		r_mean = Vector4(1.0f);
 		return make_pixel(0xFFFFFFFFu, "scene.too_large");
 	}
 	const std::vector<std::vector<std::byte>> levels = make_mip_chain(image, p_texture.srgb);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One turn of shadow rays from surface records to lamps. Lamps take turns: `slots` is their count rounded up to a power of two, so that a
-// full set of turns holds each equally often.
+// One turn of shadow rays from surface records to lamps. The lanes share the lamps out, `slots` being their count rounded up to a power of
+// two, so that each turn holds each lamp equally often: none is missing after a change.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/sdfgi/record_rays_inc.glsl"
@@ -55,11 +55,9 @@ vec3 light_of_lane(WorldRecord record, uint lane) {
 		slots *= 2u;
 	}
 	uint lane_slots = max(slots / RECORD_LANES, 1u);
-	uint lamp_rays = max(lane_slots / constants.turns, 1u);
 	vec3 light = vec3(0.0);
-	for (uint k = 0u; k < lamp_rays; k++) {
-		uint turn = constants.turn * lamp_rays + k;
-		uint lamp = slots < RECORD_LANES ? lane % slots : lane * lane_slots + turn % lane_slots;
+	for (uint k = 0u; k < lane_slots; k++) {
+		uint lamp = slots < RECORD_LANES ? lane % slots : lane * lane_slots + k;
 		if (lamp >= constants.light_count) {
 			continue;
 		}
@@ -71,7 +69,7 @@ vec3 light_of_lane(WorldRecord record, uint lane) {
 		light += trace_from_record(origin, ray, skipped_m).hit ? vec3(0.0) : ray.light;
 		atomicAdd(group_rays, 1u);
 	}
-	return light * (float(slots) / float(RECORD_LANES * lamp_rays));
+	return light * (float(min(slots, RECORD_LANES)) / float(RECORD_LANES));
 }
 
 void main() {

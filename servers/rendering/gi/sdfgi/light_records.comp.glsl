@@ -51,7 +51,8 @@ void store(uint index, WorldRecord record, vec3 bounced) {
 	vec3 still = bounced + state[index * 2u] / float(constants.turns_done);
 	vec3 lamps = constants.lamp_turns_done > 0u ? state[index * 2u + 1u] / float(constants.lamp_turns_done) : vec3(0.0);
 	uvec4 result;
-	result.xy = half4_from_vec4(vec4((still + lamps) * color_from_unorm111110(record.albedo), 1.0));
+	// Lamps may be negative, light isn't.
+	result.xy = half4_from_vec4(vec4(max(still + lamps, vec3(0.0)) * color_from_unorm111110(record.albedo), 1.0));
 	result.zw = half4_from_vec4(vec4(still, 1.0));
 	new_light[index] = result;
 	vec3 before = vec4_from_half4(world_record_light[index].zw).rgb;
@@ -82,7 +83,7 @@ void main() {
 				for (uint k = 0u; k < RECORD_LANES; k++) {
 					sum += group_light[gl_LocalInvocationIndex + k];
 				}
-				store(index, record, sum / float(turns * RECORD_LANES));
+				store(index, record, sum / float(max(turns, 1u) * RECORD_LANES));
 			} else {
 				new_light[index] = uvec4(0u);
 			}

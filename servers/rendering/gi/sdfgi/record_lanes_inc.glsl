@@ -34,7 +34,7 @@ vec3 gather_direction(uint sample_index, uint seed, vec3 normal) {
 struct RayCache {
 	uint records; // in all cascades
 	uint before; // of these, in earlier cascades
-	uint turns; // that there is room for
+	uint turns; // that there is room for; with none, nothing is gathered from
 };
 
 RayCache ray_cache_of(uint cascade, uint capacity, uint turns) {
@@ -45,7 +45,7 @@ RayCache ray_cache_of(uint cascade, uint capacity, uint turns) {
 		cache.before += c < cascade ? records_of(c) : 0u;
 		cache.records += records_of(c);
 	}
-	cache.turns = clamp(capacity / max(cache.records * RECORD_LANES, 1u), 1u, turns);
+	cache.turns = min(capacity / max(cache.records * RECORD_LANES, 1u), turns);
 	return cache;
 }
 

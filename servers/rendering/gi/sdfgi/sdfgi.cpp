@@ -6,6 +6,7 @@
 #include "servers/rendering/gi/sdfgi/sdfgi_passes.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace lucent {
 
@@ -20,7 +21,8 @@ constexpr uint32_t MAX_FRAMES = 400;
 constexpr uint32_t CHECK_PERIOD_FRAMES = 4; // each check waits for the device
 // After a change the first frames' bounces are missing: the probes start their means anew after this many.
 constexpr uint32_t PROBE_RESTART_FRAMES = 8;
-constexpr uint32_t PROBE_LEAST_VISITS = 5; // of each texel, before the light counts as settled
+// Rounds of each probe's texels before all counts as settled; probes that are not near take PROBE_FAR_PERIOD frames for one frame's share.
+constexpr uint32_t PROBE_LEAST_ROUNDS = std::max(5, PROBE_FAR_PERIOD);
 
 struct DebugView {
 	const char *name;
@@ -57,15 +59,20 @@ struct Sdfgi::Impl {
 	uint32_t light_count = 0;
 	uint32_t frame = 0; // since anything changed
 	uint32_t turns_done = 0; // by trace_records since the geometry changed
-	uint32_t lamp_turns_done = 0; // by light_lamps since the lamps changed
-	bool converged = false;
+	uint32_t lamp_turns_done = 0; // by light_lamps since anything changed
+	bool light_settled = false;
+	bool converged = false; // the probes too
 	uint64_t peak_rays = 0; // in a frame, since anything changed
 	// Of the frame that was last recorded:
 	bool checks_light = false; // its counts are to be read
-	bool may_settle = false; // it traced no more than the probes' rays, these have been round often enough, and it is its turn to be checked
+	bool may_settle = false; // it traced no more than the probes' rays
 	GiStats stats;
 
 	uint32_t turns() const { return std::clamp(settings.frames_to_converge, 1u, MAX_TURNS); }
+	// Each turn traces all lamps, so many lamps have fewer turns.
+	uint32_t lamp_turns() const { return std::max(turns() / std::max(std::bit_ceil(light_count) / 8, 1u), 1u); }
+	// After which every texel of every probe has been traced since the first frames.
+	uint32_t frames_of_probes() const { return PROBE_RESTART_FRAMES + PROBE_LEAST_ROUNDS * ((PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS + settings.probe_rays - 1) / settings.probe_rays); }
 	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
 	void create(const SdfgiSettings &p_settings);
 	SdfgiPassInputs pass_inputs() const;
@@ -92,7 +99,7 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
 	probe_list = device.create_buffer({ .size_bytes = uint64_t(settings.cascades) * (PROBE_LIST_HEADER_WORDS + probes_in_cascade()) * 4, .usage = BUFFER_STORAGE | BUFFER_INDIRECT, .name = "sdfgi.probe_list" });
 	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
-	ray_cache_words = uint32_t(std::min<uint64_t>(uint64_t(settings.ray_cache_mib) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * turns()));
+	ray_cache_words = uint32_t(std::min({ uint64_t(std::max(settings.ray_cache_mib, 1u)) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * turns(), device.info().max_storage_buffer_bytes / 4 }));
 	ray_cache = device.create_buffer({ .size_bytes = uint64_t(ray_cache_words) * 4, .name = "sdfgi.ray_cache" });
 	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
 		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
@@ -145,7 +152,7 @@ void Sdfgi::Impl::restart(bool p_geometry) {
 	frame = 0;
 	lamp_turns_done = 0;
 	turns_done = p_geometry ? 0 : turns_done;
-	converged = false;
+	light_settled = converged = stats.converged = false;
 	peak_rays = 0;
 	stats.frames = 0;
 }
@@ -155,7 +162,7 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	const SdfgiPassInputs inputs = pass_inputs();
 	const uint32_t turns = this->turns();
 	const bool traces = turns_done < turns;
-	const bool lights_lamps = light_count > 0 && lamp_turns_done < turns;
+	const bool lights_lamps = light_count > 0 && lamp_turns_done < lamp_turns();
 	const auto rays = [&](uint32_t p_cascade, uint32_t p_turn) { return shader::RecordRaysConstants{ .cascade = p_cascade, .turn = p_turn, .turns = turns, .cache_capacity = ray_cache_words, .light_count = light_count }; };
 	for (uint32_t i = 0; i < settings.cascades && traces; i++) {
 		trace_records(r_recorder, inputs, rays(i, turns_done));
@@ -165,10 +172,12 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 	}
 	turns_done += traces ? 1 : 0;
 	lamp_turns_done += lights_lamps ? 1 : 0;
-	for (uint32_t i = 0; i < settings.cascades; i++) {
+	for (uint32_t i = 0; i < settings.cascades && !light_settled; i++) {
 		light_records(r_recorder, inputs, { .cascade = i, .turns = turns, .turns_done = turns_done, .lamp_turns_done = lamp_turns_done, .cache_capacity = ray_cache_words, .feedback = settings.bounce_feedback });
 	}
-	world->swap_light();
+	if (!light_settled) {
+		world->swap_light();
+	}
 	const SdfgiPassInputs lit = pass_inputs();
 	for (uint32_t i = 0; i < settings.cascades; i++) {
 		for (const bool far : { false, true }) {
@@ -177,12 +186,10 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 		}
 	}
 	frame++;
-	// Every texel of a probe's radiance is traced anew in this many frames.
-	const uint32_t probe_round = (PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS + settings.probe_rays - 1) / settings.probe_rays;
-	may_settle = !traces && !lights_lamps && frame >= PROBE_RESTART_FRAMES + PROBE_LEAST_VISITS * probe_round;
-	// The frame that traces last tells how many rays there are.
-	may_settle = may_settle && frame % CHECK_PERIOD_FRAMES == 0;
-	checks_light = settings.count_every_frame || (traces && turns_done == turns) || may_settle;
+	may_settle = !traces && !lights_lamps;
+	const bool all_lamps_done = lights_lamps && lamp_turns_done == lamp_turns();
+	// The frames that trace last tell how many rays there are.
+	checks_light = settings.count_every_frame || (traces && turns_done == turns) || all_lamps_done || (may_settle && frame % CHECK_PERIOD_FRAMES == 0);
 	stats.frames++;
 }
 
@@ -259,7 +266,10 @@ void Sdfgi::after_frame() {
 			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
 		}
 	}
-	i.converged = i.may_settle && (statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.frame >= MAX_FRAMES);
+	if (i.may_settle && i.frame % CHECK_PERIOD_FRAMES == 0) {
+		i.light_settled = i.light_settled || statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.frame >= MAX_FRAMES;
+		i.converged = i.light_settled && i.frame >= i.frames_of_probes();
+	}
 	i.stats.converged = i.converged;
 	i.checks_light = false;
 }

@@ -89,7 +89,11 @@ uint distance_along_line(uvec3 cell) {
 }
 
 void main() {
-	uint brick = near_list[gl_WorkGroupID.x];
+	uint slot = gl_WorkGroupID.y * NEAR_BRICKS_A_ROW + gl_WorkGroupID.x;
+	if (slot >= header.count) {
+		return;
+	}
+	uint brick = near_list[slot];
 	uvec3 cell = (uvec3(brick, brick >> 10, brick >> 20) & 1023u) * WORLD_BRICK_CELLS + gl_LocalInvocationID;
 	uint best = constants.axis == 0u ? distance_along_x(ivec3(cell)) : distance_along_line(cell);
 	if (constants.axis < 2u) {

@@ -171,8 +171,7 @@ void GiWorld::place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade) 
 void GiWorld::build_sdf(PassRecorder &r_recorder, uint32_t p_cascade) {
 	const uint32_t n = world_desc.grid_size;
 	const uint32_t bricks = n / WORLD_BRICK_CELLS;
-	clear_words(r_recorder, "gi_world.clear_near_list", near_list, 0, 1);
-	clear_words(r_recorder, "gi_world.clear_near_list", near_list, 1, 2, 1);
+	clear_words(r_recorder, "gi_world.clear_near_list", near_list, 0, sizeof(shader::NearBrickHeader) / 4);
 	clear_words(r_recorder, "gi_world.clear_sdf", sdf, p_cascade * (n * n * n / 4), n * n * n / 4, 0xFFFFFFFFu);
 	for (const OwnedBuffer &scratch : distance_scratch) {
 		clear_words(r_recorder, "gi_world.clear_distances", scratch, 0, n * n * n, WORLD_SDF_FAR_SQUARED);

@@ -44,7 +44,11 @@ void main() {
 		}
 	}
 	if (axis == 2u && near != 0u) {
-		near_list[atomicAdd(header.groups.x, 1u)] = uint(brick.x) | (uint(brick.y) << 10) | (uint(brick.z) << 20);
+		uint slot = atomicAdd(header.count, 1u);
+		atomicMax(header.groups.x, min(slot + 1u, NEAR_BRICKS_A_ROW));
+		atomicMax(header.groups.y, slot / NEAR_BRICKS_A_ROW + 1u);
+		atomicMax(header.groups.z, 1u);
+		near_list[slot] = uint(brick.x) | (uint(brick.y) << 10) | (uint(brick.z) << 20);
 	}
 	to_near[(brick.z * bricks + brick.y) * bricks + brick.x] = near != 0u ? 1u : 0u;
 }

@@ -240,7 +240,6 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			t = max(t, walk_leaves(walk));
 			walk_on(walk, inverse_rate, direction_sign);
 			inside = !is_outside(walk.at, size);
-			steps++;
 		}
 		if (t >= t_max_m || steps >= TRACE_MAX_STEPS) {
 			break;

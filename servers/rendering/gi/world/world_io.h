@@ -38,6 +38,7 @@
 
 #define WORLD_SDF_SCALE 16.0
 #define WORLD_SDF_RADIUS_CELLS 15
+#define NEAR_BRICKS_A_ROW 32768u // devices need not take more than 65535 work groups a dimension
 #define WORLD_SDF_FAR_SQUARED 4096u // cells^2: more than (WORLD_SDF_RADIUS_CELLS + 1)^2
 #define WORLD_SDF_RADIUS_BRICKS 4 // a cell further than this many bricks from any stored cell is further than the radius
 
@@ -98,7 +99,8 @@ struct BuildSdfConstants {
 };
 // The bricks that build_sdf works on: this, then a brick of the window each (x | y << 10 | z << 20).
 struct NearBrickHeader {
-	uvec3 groups; // indirect arguments
+	uvec3 groups; // indirect arguments: NEAR_BRICKS_A_ROW along x, as many rows along y as it takes
+	uint count;
 };
 struct ClearWordsConstants {
 	uint first;
@@ -119,7 +121,7 @@ struct Emitter {
 INTEROP_END
 INTEROP_SIZE(GiCascade, 24)
 INTEROP_SIZE(GiWorldParams, 216)
-INTEROP_SIZE(NearBrickHeader, 12)
+INTEROP_SIZE(NearBrickHeader, 16)
 INTEROP_SIZE(WorldCell, 12)
 INTEROP_SIZE(WorldRecord, 24)
 INTEROP_SIZE(RecordAccumulator, 52)
