@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <optional>
-#include <glm/gtc/constants.hpp>
 
 namespace lucent {
 
