@@ -59,6 +59,26 @@ TEST_SUITE("gpu") {
 		}
 	}
 
+	TEST_CASE("a light that changes in every frame starves no probe") {
+		GpuFixture fixture;
+		GiTestScene scene(fixture.device());
+		scene.add_box(Vector3(-0.55f), Vector3(0.55f), scene.add_material(Vector3(0.5f)));
+		scene.set_sky(Vector3(1.0f), Vector3(1.0f));
+		Sdfgi sdfgi(fixture.device());
+		GiSceneView view = scene.upload();
+		for (uint32_t frame = 0; frame < 12; frame++) {
+			view.light_version++;
+			run_sdfgi(fixture.device(), sdfgi, small_settings(SdfgiYScale::SCALE_100_PERCENT), view, Vector3(0.0f), 1);
+		}
+		// In the air beside the box, where probes alone answer: they see the sky but for what the box hides, and light from that.
+		const std::vector<Vector3> points(6, Vector3(1.5f, 0.1f, 0.1f));
+		const std::vector<Vector3> normals(std::begin(AXES), std::end(AXES));
+		for (const Vector3 &value : gather_at(fixture.device(), sdfgi, points, normals)) {
+			CHECK(value.x > 0.8f);
+			CHECK(value.x < 1.01f);
+		}
+	}
+
 	TEST_CASE("opposite walls under a symmetric sky agree") {
 		GpuFixture fixture;
 		GiTestScene scene(fixture.device());

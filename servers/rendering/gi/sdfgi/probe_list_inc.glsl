@@ -22,7 +22,7 @@ uint place_of_slot(uint slot) {
 		uint start = probe_list_start(constants.cascade);
 		return slot < probe_list[start] ? probe_list[start + PROBE_LIST_HEADER_WORDS + slot] : NO_PLACE;
 	}
-	uint place = slot + probe_params.frame % PROBE_FAR_PERIOD * far_slice_size();
+	uint place = slot + probe_params.running_frame % PROBE_FAR_PERIOD * far_slice_size();
 	if (slot >= far_slice_size() || place >= probes_in_cascade() || probe_is_near(places[constants.cascade * probes_in_cascade() + place])) {
 		return NO_PLACE;
 	}

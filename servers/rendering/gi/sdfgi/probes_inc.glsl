@@ -40,9 +40,9 @@ bool probe_is_free(ProbePlace place) {
 bool probe_is_near(ProbePlace place) {
 	return ((place.packed_offset >> 24) & PROBE_NEAR) != 0u;
 }
-// The probe's own count of updates: probes that no surface reads take turns.
-uint probe_turn(ProbePlace place) {
-	return probe_is_near(place) ? probe_params.frame : probe_params.frame / PROBE_FAR_PERIOD;
+// The probe's own count of updates up to a frame: probes that no surface reads take turns.
+uint probe_turn(ProbePlace place, uint frame) {
+	return probe_is_near(place) ? frame : frame / PROBE_FAR_PERIOD;
 }
 uint far_slice_size() {
 	return (probes_in_cascade() + PROBE_FAR_PERIOD - 1u) / PROBE_FAR_PERIOD;

@@ -58,6 +58,7 @@ struct Sdfgi::Impl {
 	BufferHandle lights;
 	uint32_t light_count = 0;
 	uint32_t frame = 0; // since anything changed
+	uint32_t running_frame = 0;
 	uint32_t turns_done = 0; // by trace_records since the geometry changed
 	uint32_t lamp_turns_done = 0; // by light_lamps since anything changed
 	bool light_settled = false;
@@ -137,6 +138,7 @@ void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p
 		.spacing_cells = settings.probe_spacing_cells,
 		.rays = settings.probe_rays,
 		.frame = frame < PROBE_RESTART_FRAMES ? frame : frame - PROBE_RESTART_FRAMES,
+		.running_frame = running_frame,
 		.normal_bias = settings.normal_bias,
 		.probe_bias = settings.probe_bias,
 		.energy = settings.energy,
@@ -186,6 +188,7 @@ void Sdfgi::Impl::light_frame(PassRecorder &r_recorder) {
 		}
 	}
 	frame++;
+	running_frame++;
 	may_settle = !traces && !lights_lamps;
 	const bool all_lamps_done = lights_lamps && lamp_turns_done == lamp_turns();
 	// The frames that trace last tell how many rays there are.

@@ -74,7 +74,8 @@ struct ProbeParams {
 	uint probes; // an axis
 	uint spacing_cells;
 	uint rays; // a probe and frame
-	uint frame; // since the light was reset
+	uint frame; // since the probes' means started anew
+	uint running_frame; // never starts anew: what is due in a frame goes by it, so that constant change starves no texel
 	float normal_bias; // sub-voxels
 	float probe_bias; // sub-voxels
 	float energy;
@@ -101,7 +102,7 @@ struct SdfgiStatistics {
 INTEROP_END
 INTEROP_SIZE(RecordRaysConstants, 20)
 INTEROP_SIZE(LightRecordsConstants, 24)
-INTEROP_SIZE(ProbeParams, 48)
+INTEROP_SIZE(ProbeParams, 52)
 INTEROP_SIZE(ProbeListHeader, 28)
 INTEROP_SIZE(GatherConstants, 88)
 #endif

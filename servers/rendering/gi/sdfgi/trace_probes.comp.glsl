@@ -22,9 +22,8 @@ void trace_ray(uint place, uint ray) {
 	ivec3 probe = probe_at_place(constants.cascade, place);
 	const uint TEXELS = PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS;
 	ProbePlace probe_place = places[index];
-	uint turn = probe_turn(probe_place) * probe_params.rays + ray;
-	uint texel_index = turn % TEXELS;
-	uint visit = turn / TEXELS;
+	uint texel_index = (probe_turn(probe_place, probe_params.running_frame) * probe_params.rays + ray) % TEXELS;
+	uint visit = (probe_turn(probe_place, probe_params.frame) * probe_params.rays + ray) / TEXELS;
 	ivec2 texel = ivec2(int(texel_index % PROBE_RADIANCE_TEXELS), int(texel_index / PROBE_RADIANCE_TEXELS));
 	ivec2 at = probe_tile(index, PROBE_RADIANCE_BORDERED_TEXELS) + 1 + texel;
 	if (!probe_is_free(probe_place)) {
