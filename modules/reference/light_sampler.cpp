@@ -78,9 +78,9 @@ void LightSampler::add_emitters(TraceScene &r_trace, uint32_t p_surface, std::ve
 		Emitter emitter = {};
 		emitter.surface = p_surface;
 		emitter.primitive = i;
-		emitter.corner = surface.positions[indices[3 * i]];
-		emitter.edge1 = surface.positions[indices[3 * i + 1]] - emitter.corner;
-		emitter.edge2 = surface.positions[indices[3 * i + 2]] - emitter.corner;
+		emitter.corner = surface.vertices[indices[3 * i]].position;
+		emitter.edge1 = surface.vertices[indices[3 * i + 1]].position - emitter.corner;
+		emitter.edge2 = surface.vertices[indices[3 * i + 2]].position - emitter.corner;
 		const Vector3 cross = glm::cross(emitter.edge1, emitter.edge2);
 		emitter.area_pdf = 0.5f * glm::length(cross);
 		emitter.normal = cross * (0.5f * surface.orientation / emitter.area_pdf);

@@ -2,7 +2,6 @@
 #include "modules/reference/trace_scene.h"
 
 #include "modules/reference/random.h"
-#include "modules/reference/texture_sampling.h"
 
 #include <embree3/rtcore.h>
 
@@ -69,11 +68,6 @@ RTCRayHit make_query(const Ray &p_ray, uint32_t p_mask) {
 	return query;
 }
 
-// The same texels, whatever the channel.
-bool reads_alike(const TextureRef &p_a, const TextureRef &p_b) {
-	return p_a.texture == p_b.texture && p_a.uv_set == p_b.uv_set && p_a.wrap_u == p_b.wrap_u && p_a.wrap_v == p_b.wrap_v && p_a.filter == p_b.filter && p_a.uv_offset == p_b.uv_offset && p_a.uv_scale == p_b.uv_scale && p_a.uv_rotation == p_b.uv_rotation;
-}
-
 bool needs_filter(const TraceMaterial &p_material, const TraceSurface &p_surface) {
 	return p_material.parameters.transparency != TransparencyMode::OPAQUE || p_surface.opacity < 1.0f;
 }
@@ -120,16 +114,10 @@ void TraceScene::add_instance(const RenderScene &p_scene, const Instance &p_inst
 	if (p_instance.shadow_casting != ShadowCasting::OFF) {
 		mask |= RAY_LAMP_SHADOW;
 	}
-	const Basis &basis = p_instance.transform.basis;
-	// The cofactor matrix: inverse transpose times the determinant, defined for flattened bases too.
-	const Basis cofactor(glm::cross(basis[1], basis[2]), glm::cross(basis[2], basis[0]), glm::cross(basis[0], basis[1]));
-	const float orientation = glm::determinant(basis) < 0.0f ? -1.0f : 1.0f;
 	for (uint32_t i = 0; i < p_mesh.surfaces.size(); i++) {
 		TraceSurface surface;
 		surface.mesh = p_mesh.surfaces[i];
-		surface.basis = basis;
-		surface.normal_basis = cofactor * orientation;
-		surface.orientation = orientation;
+		surface.orientation = glm::determinant(p_instance.transform.basis) < 0.0f ? -1.0f : 1.0f;
 		surface.opacity = 1.0f - glm::clamp(p_instance.transparency, 0.0f, 1.0f);
 		surface.material = add_material(p_scene, p_scene.surface_material(p_instance, p_mesh, i));
 		add_geometry(std::move(surface), p_instance.transform, mask);
@@ -147,14 +135,7 @@ uint32_t TraceScene::add_material(const RenderScene &p_scene, const Material *p_
 		material.parameters = *p_material;
 	}
 	const Material &parameters = material.parameters;
-	for (uint32_t slot = 0; slot < uint32_t(TextureSlot::COUNT); slot++) {
-		const SceneTexture *texture = p_scene.textures.get(parameters.textures[slot].texture);
-		if (texture && texture->image && !texture->image->is_empty()) {
-			material.textures[slot] = *texture;
-			material.texture_mask |= 1u << slot;
-		}
-	}
-	material.one_fetch = material.has_texture(TextureSlot::METALLIC) && reads_alike(parameters.textures[size_t(TextureSlot::METALLIC)], parameters.textures[size_t(TextureSlot::ROUGHNESS)]);
+	add_textures(p_scene, material);
 	material.lobes = brdf::brdf_lobes(Vector3(parameters.albedo), parameters.metallic, parameters.roughness, parameters.specular, parameters.specular_tint);
 	material.constant = !material.has_texture(TextureSlot::ALBEDO) && !material.has_texture(TextureSlot::METALLIC) &&
 			!material.has_texture(TextureSlot::ROUGHNESS) && !parameters.vertex_color_use_as_albedo;
@@ -167,25 +148,75 @@ uint32_t TraceScene::add_material(const RenderScene &p_scene, const Material *p_
 	return uint32_t(materials.size() - 1);
 }
 
+// Slots that read the same texels share a group, materials with the same textures share their memory.
+void TraceScene::add_textures(const RenderScene &p_scene, TraceMaterial &r_material) {
+	const Material &parameters = r_material.parameters;
+	for (const TextureSlot slot : { TextureSlot::ALBEDO, TextureSlot::NORMAL, TextureSlot::METALLIC, TextureSlot::ROUGHNESS, TextureSlot::EMISSION }) {
+		const TextureRef &ref = parameters.textures[size_t(slot)];
+		const SceneTexture *texture = p_scene.textures.get(ref.texture);
+		if (!texture || !texture->image || texture->image->is_empty()) {
+			continue;
+		}
+		uint32_t group = 0, member = 0;
+		while (group < r_material.groups.size() && !r_material.groups[group].add(*texture, ref, member)) {
+			group++;
+		}
+		if (group == r_material.groups.size()) {
+			r_material.groups.emplace_back().add(*texture, ref, member);
+		}
+		r_material.reads[size_t(slot)] = { uint8_t(group), uint8_t(member) };
+		r_material.texture_mask |= 1u << uint32_t(slot);
+	}
+	for (TexelGroup &group : r_material.groups) {
+		const TexelGroup *same = nullptr;
+		for (const TraceMaterial &other : materials) {
+			for (const TexelGroup &candidate : other.groups) {
+				same = group.holds_same_texels(candidate) ? &candidate : same;
+			}
+		}
+		if (same) {
+			group.share(*same);
+		} else {
+			group.build(arena);
+		}
+	}
+}
+
+static void fill_vertices(const MeshSurface &p_mesh, const Transform3D &p_transform, float p_orientation, TraceVertex *r_vertices) {
+	const Basis &basis = p_transform.basis;
+	// The cofactor matrix: inverse transpose times the determinant, defined for flattened bases too.
+	const Basis normal_basis = Basis(glm::cross(basis[1], basis[2]), glm::cross(basis[2], basis[0]), glm::cross(basis[0], basis[1])) * p_orientation;
+	const std::vector<Vector2> &uv2s = p_mesh.uv2s.empty() ? p_mesh.uvs : p_mesh.uv2s;
+	for (size_t i = 0; i < p_mesh.positions.size(); i++) {
+		TraceVertex vertex = { p_transform.xform(p_mesh.positions[i]), Vector3(0.0f), Vector4(0.0f), { Vector2(0.0f), Vector2(0.0f) } };
+		if (!p_mesh.normals.empty()) {
+			vertex.normal = normal_basis * p_mesh.normals[i];
+		}
+		if (!p_mesh.tangents.empty()) {
+			vertex.tangent = Vector4(basis * Vector3(p_mesh.tangents[i]), (p_mesh.tangents[i].w < 0.0f ? -1.0f : 1.0f) * p_orientation);
+		}
+		vertex.uvs[0] = p_mesh.uvs.empty() ? Vector2(0.0f) : p_mesh.uvs[i];
+		vertex.uvs[1] = uv2s.empty() ? Vector2(0.0f) : uv2s[i];
+		r_vertices[i] = vertex;
+	}
+}
+
 void TraceScene::add_geometry(TraceSurface p_surface, const Transform3D &p_transform, uint32_t p_mask) {
 	const MeshSurface &mesh = *p_surface.mesh;
-	RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-	auto *positions = static_cast<Vector3 *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vector3), mesh.positions.size()));
-	if (positions) {
-		for (size_t i = 0; i < mesh.positions.size(); i++) {
-			positions[i] = p_transform.xform(mesh.positions[i]);
-		}
-		rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0, 3 * sizeof(uint32_t), mesh.indices.size() / 3);
-		if (needs_filter(materials[p_surface.material], p_surface)) {
-			rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
-			rtcSetGeometryOccludedFilterFunction(geometry, filter_hit);
-		}
-		rtcSetGeometryMask(geometry, p_mask);
-		rtcCommitGeometry(geometry);
-		p_surface.positions = positions;
-		rtcAttachGeometryByID(embree_scene, geometry, uint32_t(surfaces.size()));
-		surfaces.push_back(std::move(p_surface));
+	auto *const vertices = reinterpret_cast<TraceVertex *>(arena.allocate(mesh.positions.size() * sizeof(TraceVertex)));
+	fill_vertices(mesh, p_transform, p_surface.orientation, vertices);
+	const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, offsetof(TraceVertex, position), sizeof(TraceVertex), mesh.positions.size());
+	rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0, 3 * sizeof(uint32_t), mesh.indices.size() / 3);
+	if (needs_filter(materials[p_surface.material], p_surface)) {
+		rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
+		rtcSetGeometryOccludedFilterFunction(geometry, filter_hit);
 	}
+	rtcSetGeometryMask(geometry, p_mask);
+	rtcCommitGeometry(geometry);
+	p_surface.vertices = vertices;
+	rtcAttachGeometryByID(embree_scene, geometry, uint32_t(surfaces.size()));
+	surfaces.push_back(std::move(p_surface));
 	rtcReleaseGeometry(geometry);
 }
 

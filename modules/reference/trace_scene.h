@@ -3,6 +3,7 @@
 // A scenario flattened for tracing: one Embree geometry for each surface of each visible instance, in world space.
 
 #include "modules/reference/brdf.h"
+#include "modules/reference/texel_group.h"
 #include "servers/core/error.h"
 #include "servers/rendering/render_scene.h"
 
@@ -22,13 +23,18 @@ enum RayMask : uint32_t {
 };
 
 struct TraceMaterial {
+	static constexpr uint32_t MAX_GROUPS = 5; // albedo, normal, metallic, roughness, emission: each apart at worst
 	Material parameters;
-	SceneTexture textures[size_t(TextureSlot::COUNT)];
-	uint32_t texture_mask = 0; // bit: slot
+	struct TextureRead {
+		uint8_t group = 0;
+		uint8_t member = 0;
+	};
+	std::vector<TexelGroup> groups; // at most MAX_GROUPS
+	TextureRead reads[size_t(TextureSlot::COUNT)]; // where each texture is
+	uint32_t texture_mask = 0; // bit: slot; without textures that transport ignores
 	brdf::BrdfLobes lobes; // where no texture or vertex colour changes them
 	bool constant = false; // lobes and albedo hold everywhere
 	bool lambertian = false; // no specular lobe anywhere
-	bool one_fetch = false; // metallic and roughness are channels of the same texels
 	bool emissive = false; // emits somewhere, and light sampling may find it
 
 	bool has_texture(TextureSlot p_slot) const { return (texture_mask >> uint32_t(p_slot)) & 1; }
@@ -37,11 +43,17 @@ struct TraceMaterial {
 	}
 };
 
+// A vertex in world space, within one cache line: meshes keep their attributes in arrays of their own, which a hit would miss one by one.
+struct alignas(64) TraceVertex {
+	Vector3 position;
+	Vector3 normal; // of any length; 0: the mesh has none
+	Vector4 tangent; // xyz: of any length; w: handedness, 0: the mesh has none
+	Vector2 uvs[2];
+};
+
 struct TraceSurface {
 	std::shared_ptr<const MeshSurface> mesh;
-	const Vector3 *positions = nullptr; // world; Embree's buffer
-	Basis basis = Basis(1.0f); // world from local, for tangents
-	Basis normal_basis = Basis(1.0f); // for normals, to be normalized
+	const TraceVertex *vertices = nullptr; // also Embree's buffer
 	float orientation = 1.0f; // -1: mirrored, front faces are clockwise in world space
 	float opacity = 1.0f; // 1 - the instance's transparency
 	uint32_t material = 0;
@@ -107,12 +119,12 @@ private:
 	TraceScene() = default;
 	void add_instance(const RenderScene &p_scene, const Instance &p_instance, const Mesh &p_mesh, uint32_t p_cull_mask);
 	uint32_t add_material(const RenderScene &p_scene, const Material *p_material);
+	void add_textures(const RenderScene &p_scene, TraceMaterial &r_material);
 	void add_geometry(TraceSurface p_surface, const Transform3D &p_transform, uint32_t p_mask);
-	Vector3 mapped_normal(const TraceSurface &p_surface, const TraceMaterial &p_material, const RayHit &p_hit, const Vector3 &p_normal) const;
-	brdf::BrdfLobes lobes_at(const TraceSurface &p_surface, const TraceMaterial &p_material, const RayHit &p_hit, const Vector3 &p_albedo) const;
 
 	RTCDeviceTy *device = nullptr;
 	RTCSceneTy *embree_scene = nullptr;
+	HugeArena arena; // vertices and texels
 	std::vector<std::pair<const Material *, uint32_t>> material_indices;
 };
 
