@@ -61,6 +61,7 @@ static void declare_options(CLI::App &r_app, ReferenceOptions &r_options, std::s
 	r_app.add_option("--time", tracer.time_limit_s, "stop after this many seconds")->type_name("SECONDS")->check(CLI::PositiveNumber)->multi_option_policy(last);
 	r_app.add_option("--seed", tracer.seed, "of the random numbers [0]")->type_name("N")->multi_option_policy(last);
 	r_app.add_option("--threads", tracer.threads, "threads [as many as the machine has]")->type_name("N")->check(CLI::Range(0u, 1024u))->multi_option_policy(last);
+	r_app.add_option("--filter", r_options.filter, "pixel filter: box, or blackman-harris (1.5 pixels wide) [box]")->type_name("NAME")->multi_option_policy(last);
 	r_app.add_option("--aov", r_options.aovs, "layers to add, separated by commas: " + aov_list() + ", or all")->type_name("LAYER,…")->expected(1)->delimiter(',')->multi_option_policy(all);
 	r_app.add_option("--camera", r_options.scene.camera, "look through this camera: a node's name or path")->type_name("NAME")->multi_option_policy(last);
 	r_app.add_option("--set", r_options.scene.settings, "change a property first, any number of times; the value is written as in a .tscn")
@@ -97,6 +98,10 @@ Result<ReferenceOptions> parse_reference_options(const std::vector<std::string> 
 	if (!options.report_throughput && !options.output.ends_with(".exr")) {
 		return make_error("-o '{}': name a picture that ends in .exr", options.output);
 	}
+	if (options.filter != "box" && options.filter != "blackman-harris") {
+		return make_error("--filter '{}' is unknown{}; there are box and blackman-harris", options.filter, suggestion(options.filter, { "box", "blackman-harris" }));
+	}
+	options.tracer.filter = options.filter == "box" ? PixelFilter::BOX : PixelFilter::BLACKMAN_HARRIS;
 	options.tracer.width = options.scene.width;
 	options.tracer.height = options.scene.height;
 	options.tracer.aov = !options.aovs.empty();

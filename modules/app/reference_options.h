@@ -12,6 +12,7 @@ struct ReferenceOptions {
 	std::string output; // .exr
 	PathTracerSettings tracer;
 	std::vector<std::string> aovs; // names of REFERENCE_AOV_NAMES
+	std::string filter = "box";
 	bool report_throughput = false;
 	bool quiet = false;
 	bool exit = false; // --help was printed

@@ -52,14 +52,11 @@ LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, T
 	for (double weight : weights) {
 		total += weight;
 	}
-	double running = 0;
 	for (size_t i = 0; i < emitters.size(); i++) {
-		emitter_cdf.push_back(float(running / total));
-		running += weights[i];
 		emitters[i].area_pdf = float(weights[i] / total / emitters[i].area_pdf); // held the area until now
 		area_pdfs[r_trace.surfaces[emitters[i].surface].first_emitter + emitters[i].primitive] = emitters[i].area_pdf;
 	}
-	emitter_cdf.push_back(1.0f);
+	build_alias_table(weights, total);
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
 		const Light *light = p_scene.lights.get(p_instance.light);
 		if (light && p_instance.scenario == p_scenario && p_instance.visible) {
@@ -89,12 +86,47 @@ void LightSampler::add_emitters(TraceScene &r_trace, uint32_t p_surface, std::ve
 		estimate_emission(r_trace, p_surface, i, average, brightest);
 		// A floor of 1e-3 of the parameter's own brightness: a texture may shine between the 16 points.
 		const float floor_value = 1e-3f * std::max(mean(r_trace.material_of(p_surface).parameters.emission), brightest);
+		const TraceMaterial &material = r_trace.material_of(p_surface);
+		emitter.constant = !material.has_texture(TextureSlot::EMISSION) && material.parameters.transparency == TransparencyMode::OPAQUE;
+		emitter.radiance = material.parameters.emission * surface.opacity;
+		emitter.shines[0] = material.visible_from(false);
+		emitter.shines[1] = material.visible_from(true);
 		const double weight = double(emitter.area_pdf) * std::max(average, floor_value);
 		if (weight > 0 && std::isfinite(weight)) {
 			emitters.push_back(emitter);
 			r_weights.push_back(weight);
 		}
 	}
+}
+
+void LightSampler::build_alias_table(const std::vector<double> &p_weights, double p_total) {
+	std::vector<double> share; // of an even part; 1 on average
+	std::vector<uint32_t> small, large;
+	for (uint32_t i = 0; i < p_weights.size(); i++) {
+		share.push_back(p_weights[i] / p_total * double(p_weights.size()));
+		(share[i] < 1.0 ? small : large).push_back(i);
+		emitters[i].keep = UINT32_MAX;
+		emitters[i].alias = i;
+	}
+	while (!small.empty() && !large.empty()) {
+		const uint32_t less = small.back();
+		const uint32_t more = large.back();
+		small.pop_back();
+		emitters[less].keep = uint32_t(share[less] * 0x1p32);
+		emitters[less].alias = more;
+		share[more] -= 1.0 - share[less];
+		if (share[more] < 1.0) {
+			large.pop_back();
+			small.push_back(more);
+		}
+	}
+}
+
+const LightSampler::Emitter &LightSampler::choose_emitter(Random &r_random) const {
+	const uint64_t scaled = uint64_t(r_random.next_uint()) * emitters.size();
+	const uint32_t index = uint32_t(scaled >> 32);
+	const uint32_t others[2] = { index, emitters[index].alias };
+	return emitters[others[uint32_t(scaled) > emitters[index].keep]]; // an index, not a branch: nobody could predict it
 }
 
 void LightSampler::add_lamp(const Light &p_light, const Transform3D &p_transform) {
@@ -114,29 +146,31 @@ void LightSampler::add_lamp(const Light &p_light, const Transform3D &p_transform
 	}
 }
 
-EmitterSample LightSampler::sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, Random &r_random) const {
+EmitterSample LightSampler::sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, const Vector3 &p_horizon, Random &r_random) const {
 	EmitterSample sample;
-	const float choice = r_random.next();
-	const size_t index = std::clamp<ptrdiff_t>(std::upper_bound(emitter_cdf.begin(), emitter_cdf.end(), choice) - emitter_cdf.begin() - 1, 0, ptrdiff_t(emitters.size()) - 1);
-	const Emitter &emitter = emitters[index];
-	float u = r_random.next();
-	float v = r_random.next();
-	if (u + v > 1.0f) {
-		u = 1.0f - u;
-		v = 1.0f - v;
-	}
+	const Emitter &emitter = choose_emitter(r_random);
+	// Sorted, two random numbers cut 1 into three parts that are uniform over the triangle.
+	const float r1 = r_random.next();
+	const float r2 = r_random.next();
+	const float u = std::min(r1, r2);
+	const float v = 1.0f - std::max(r1, r2);
 	const Vector3 position = emitter.corner + emitter.edge1 * u + emitter.edge2 * v;
 	const Vector3 to_emitter = position - p_position;
+	const float facing = -glm::dot(emitter.normal, to_emitter); // > 0: its front is seen
+	const bool front = facing > 0.0f;
+	if (!emitter.shines[front] || !(glm::dot(p_horizon, to_emitter) > 0.0f)) {
+		return sample;
+	}
 	const float square = glm::dot(to_emitter, to_emitter);
 	const float inverse_distance = 1.0f / std::sqrt(square);
 	sample.direction = to_emitter * inverse_distance;
-	const float cosine = -glm::dot(emitter.normal, sample.direction); // > 0: its front is seen
-	if (!(std::abs(cosine) > 1e-6f) || !p_trace.material_of(emitter.surface).visible_from(cosine > 0.0f)) {
+	const float cosine = std::abs(facing) * inverse_distance;
+	if (!(cosine > 1e-6f)) {
 		return sample;
 	}
-	sample.position = position + emitter.normal * (cosine > 0.0f ? emitter.offset_m : -emitter.offset_m);
-	sample.radiance = p_trace.emission(emitter.surface, emitter.primitive, u, v) * p_trace.alpha(emitter.surface, emitter.primitive, u, v);
-	sample.pdf = emitter.area_pdf * square / std::abs(cosine);
+	sample.position = position + emitter.normal * (front ? emitter.offset_m : -emitter.offset_m);
+	sample.radiance = emitter.constant ? emitter.radiance : p_trace.emission(emitter.surface, emitter.primitive, u, v) * p_trace.alpha(emitter.surface, emitter.primitive, u, v);
+	sample.pdf = emitter.area_pdf * square / cosine;
 	return sample;
 }
 

@@ -32,7 +32,8 @@ public:
 	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace);
 
 	bool has_emitters() const { return !emitters.empty(); }
-	EmitterSample sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, Random &r_random) const;
+	// pdf 0 where the point is below p_horizon, the surface's geometric normal.
+	EmitterSample sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, const Vector3 &p_horizon, Random &r_random) const;
 	// Density over area (1 / m^2) with which sample_emitter chooses points of this triangle.
 	float emitter_area_pdf(const TraceSurface &p_surface, uint32_t p_primitive) const {
 		return p_surface.first_emitter == UINT32_MAX ? 0.0f : area_pdfs[p_surface.first_emitter + p_primitive];
@@ -53,6 +54,12 @@ private:
 		Vector3 normal; // unit, of the front
 		float area_pdf; // 1 / m^2, choice included
 		float offset_m; // that keeps a ray's end off the triangle
+		Vector3 radiance; // where it is the same everywhere
+		bool constant;
+		bool shines[2]; // to the back, to the front
+		// Alias table (Walker 1977; Vose, IEEE TSE 17(9) 1991): of this entry's draws, which part goes to the other emitter.
+		uint32_t keep; // in units of 2^-32
+		uint32_t alias;
 	};
 	struct Lamp {
 		Light parameters;
@@ -64,12 +71,13 @@ private:
 		float sun_cos = 1; // cosine of the sun's angular radius
 	};
 	void add_emitters(TraceScene &r_trace, uint32_t p_surface, std::vector<double> &r_weights);
+	void build_alias_table(const std::vector<double> &p_weights, double p_total);
+	const Emitter &choose_emitter(Random &r_random) const;
 	void add_lamp(const Light &p_light, const Transform3D &p_transform);
 	float attenuation(const Lamp &p_lamp, const Vector3 &p_to_lamp, float p_distance) const;
 	float lamp_weight(const Lamp &p_lamp, const Vector3 &p_position, const Vector3 &p_normal, bool p_indirect) const;
 
 	std::vector<Emitter> emitters;
-	std::vector<float> emitter_cdf; // emitters + 1, ends at 1
 	std::vector<float> area_pdfs; // by first_emitter + primitive; 0: never chosen
 	std::vector<Lamp> lamps;
 };

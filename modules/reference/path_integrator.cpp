@@ -56,8 +56,9 @@ Ray CameraRays::ray(float p_x, float p_y) const {
 	return { transform.origin, transform.basis * (direction / length), near_m * length, far_m * length };
 }
 
-PathSample PathIntegrator::trace(float p_x, float p_y, Random &r_random) {
+Vector3 PathIntegrator::trace(float p_x, float p_y, Random &r_random, PathLayers *r_layers) {
 	Path path;
+	path.first = r_layers;
 	path.ray = camera_rays.ray(p_x, p_y);
 	for (uint32_t event = 0; event < MAX_EVENTS; event++) {
 		const RayHit hit = next_hit(path, r_random);
@@ -72,10 +73,10 @@ PathSample PathIntegrator::trace(float p_x, float p_y, Random &r_random) {
 			path.ray.near = hit.distance + vertex.point.offset_m; // the same ray goes on behind the surface
 			continue;
 		}
-		if (path.bounce == 0) {
-			path.result.albedo = vertex.point.albedo;
-			path.result.normal = vertex.point.normal;
-			path.result.depth_m = camera_rays.depth_m(vertex.point.position);
+		if (path.first) {
+			path.first->albedo = vertex.point.albedo;
+			path.first->normal = vertex.point.normal;
+			path.first->depth_m = camera_rays.depth_m(vertex.point.position);
 		}
 		add_emission(path, hit, vertex, material);
 		if (material.parameters.unshaded) {
@@ -89,7 +90,7 @@ PathSample PathIntegrator::trace(float p_x, float p_y, Random &r_random) {
 			break;
 		}
 	}
-	return path.result;
+	return path.radiance;
 }
 
 RayHit PathIntegrator::next_hit(Path &r_path, Random &r_random) {
@@ -113,11 +114,13 @@ Vector3 PathIntegrator::visibility(const Vertex &p_vertex, const Vector3 &p_dire
 void PathIntegrator::add_emission(Path &r_path, const RayHit &p_hit, const Vertex &p_vertex, const TraceMaterial &p_material) {
 	if (p_material.parameters.unshaded) {
 		const Vector3 value = r_path.throughput * p_vertex.point.albedo;
-		r_path.result.radiance += value;
-		r_path.result.emission += r_path.bounce == 0 ? value : Vector3(0.0f);
+		r_path.radiance += value;
+		if (r_path.first) {
+			r_path.first->emission += value;
+		}
 		return;
 	}
-	if (!p_material.visible_from(p_vertex.point.front)) {
+	if (!p_material.shines || !p_material.visible_from(p_vertex.point.front)) {
 		return;
 	}
 	Vector3 value = scene.emission(p_hit.surface, p_hit.primitive, p_hit.u, p_hit.v);
@@ -126,23 +129,27 @@ void PathIntegrator::add_emission(Path &r_path, const RayHit &p_hit, const Verte
 	}
 	value *= r_path.throughput;
 	if (r_path.bounce == 0) {
-		r_path.result.emission += value;
+		if (r_path.first) {
+			r_path.first->emission += value;
+		}
 	} else if (const float area_pdf = world.lights.emitter_area_pdf(scene.surfaces[p_hit.surface], p_hit.primitive); area_pdf > 0.0f) {
 		const float cosine = glm::dot(p_vertex.point.geometric_normal, p_vertex.view);
 		const float light_pdf = area_pdf * p_hit.distance * p_hit.distance / std::max(cosine, 1e-7f);
 		value *= power_heuristic(r_path.pdf, light_pdf);
 	}
-	r_path.result.radiance += value;
+	r_path.radiance += value;
 }
 
 void PathIntegrator::add_background(Path &r_path) {
 	Vector3 value = r_path.throughput * world.sky.radiance(r_path.ray.direction, r_path.bounce == 0);
 	if (r_path.bounce == 0) {
-		r_path.result.background += value;
+		if (r_path.first) {
+			r_path.first->background += value;
+		}
 	} else if (world.sky.is_sampled()) {
 		value *= power_heuristic(r_path.pdf, world.sky.pdf(r_path.ray.direction));
 	}
-	r_path.result.radiance += value;
+	r_path.radiance += value;
 }
 
 void PathIntegrator::add_emitter_light(Path &r_path, const Vertex &p_vertex, Random &r_random) {
@@ -150,8 +157,8 @@ void PathIntegrator::add_emitter_light(Path &r_path, const Vertex &p_vertex, Ran
 		return;
 	}
 	const SurfacePoint &point = p_vertex.point;
-	const EmitterSample sample = world.lights.sample_emitter(scene, point.position, r_random);
-	if (sample.pdf <= 0.0f || is_black(sample.radiance) || glm::dot(point.geometric_normal, sample.direction) <= 0.0f) {
+	const EmitterSample sample = world.lights.sample_emitter(scene, point.position, point.geometric_normal, r_random);
+	if (sample.pdf <= 0.0f || is_black(sample.radiance)) {
 		return;
 	}
 	const brdf::Evaluation evaluation = brdf::evaluate(point.lobes, p_vertex.specular_share, point.normal, p_vertex.view, sample.direction);
@@ -162,7 +169,7 @@ void PathIntegrator::add_emitter_light(Path &r_path, const Vertex &p_vertex, Ran
 	const Vector3 origin = point.position + point.geometric_normal * point.offset_m;
 	const Vector3 segment = sample.position - origin;
 	const Vector3 visible = visibility(p_vertex, segment, 1.0f, RAY_BOUNCE);
-	r_path.result.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
+	r_path.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
 }
 
 void PathIntegrator::add_sky_light(Path &r_path, const Vertex &p_vertex, Random &r_random) {
@@ -180,7 +187,7 @@ void PathIntegrator::add_sky_light(Path &r_path, const Vertex &p_vertex, Random 
 		return;
 	}
 	const Vector3 visible = visibility(p_vertex, sample.direction, std::numeric_limits<float>::infinity(), RAY_BOUNCE);
-	r_path.result.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
+	r_path.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
 }
 
 // At the first surface each of a few lamps has its own ray: the picture's sharpest edges are their shadows.
@@ -217,8 +224,10 @@ void PathIntegrator::add_lamp_light(Path &r_path, const Vertex &p_vertex, const 
 		value *= glm::mix(Vector3(1.0f), visibility(p_vertex, p_sample.direction, p_sample.distance_m, RAY_LAMP_SHADOW), p_sample.shadow_opacity);
 	}
 	value *= r_path.throughput;
-	r_path.result.radiance += value;
-	r_path.result.direct += r_path.bounce == 0 ? value : Vector3(0.0f);
+	r_path.radiance += value;
+	if (r_path.first) {
+		r_path.first->direct += value;
+	}
 }
 
 // Blend equations that are not a mixture: the surface is seen and what is behind it is too, half of the paths each.
@@ -264,6 +273,7 @@ bool PathIntegrator::sample_direction(Path &r_path, const Vertex &p_vertex, Rand
 void PathIntegrator::start_ray(Path &r_path, const SurfacePoint &p_point, const Vector3 &p_direction) {
 	r_path.ray = { p_point.position + p_point.geometric_normal * p_point.offset_m, p_direction };
 	r_path.bounce++;
+	r_path.first = nullptr;
 }
 
 // Russian roulette from the third bounce on.

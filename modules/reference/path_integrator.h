@@ -19,8 +19,8 @@ struct TraceWorld {
 	Camera camera;
 };
 
-struct PathSample {
-	Vector3 radiance{ 0.0f };
+// What the first surface shows, apart.
+struct PathLayers {
 	Vector3 direct{ 0.0f };
 	Vector3 emission{ 0.0f };
 	Vector3 background{ 0.0f };
@@ -51,7 +51,8 @@ public:
 	PathIntegrator(const TraceWorld &p_world, const CameraRays &p_camera_rays) :
 			world(p_world), scene(*p_world.scene), camera_rays(p_camera_rays) {}
 
-	PathSample trace(float p_x, float p_y, Random &r_random);
+	// Radiance through a point of the picture. r_layers: empty ones, or null.
+	Vector3 trace(float p_x, float p_y, Random &r_random, PathLayers *r_layers);
 
 	uint64_t ray_count = 0;
 	std::vector<Ray> *recording = nullptr; // each traced ray is added, for measure_throughput()
@@ -62,7 +63,8 @@ private:
 		Vector3 throughput{ 1.0f };
 		float pdf = 0; // of the BRDF sample that made the ray
 		uint32_t bounce = 0;
-		PathSample result;
+		Vector3 radiance{ 0.0f };
+		PathLayers *first = nullptr; // until the first bounce, where layers are asked for
 	};
 	// What a bounce or a connection needs of the surface.
 	struct Vertex {

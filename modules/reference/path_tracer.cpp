@@ -2,6 +2,7 @@
 #include "modules/reference/path_tracer.h"
 
 #include "modules/reference/path_integrator.h"
+#include "modules/reference/pixel_filter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -37,7 +38,7 @@ struct LayerSums {
 	float depth_m = 0;
 	uint32_t surface_count = 0;
 
-	void add(const PathSample &p_sample) {
+	void add(const PathLayers &p_sample) {
 		direct += p_sample.direct;
 		emission += p_sample.emission;
 		background += p_sample.background;
@@ -70,6 +71,16 @@ uint32_t thread_count(const PathTracerSettings &p_settings) {
 	return p_settings.threads > 0 ? p_settings.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
+Status check_settings(const PathTracerSettings &p_settings) {
+	if (p_settings.width < 1 || p_settings.width > MAX_SIZE || p_settings.height < 1 || p_settings.height > MAX_SIZE) {
+		return make_error("path tracer: size {}x{} is outside 1 to {}", p_settings.width, p_settings.height, MAX_SIZE);
+	}
+	if (p_settings.spp < 1 || p_settings.spp > MAX_SPP) {
+		return make_error("path tracer: {} samples a pixel are outside 1 to {}", p_settings.spp, MAX_SPP);
+	}
+	return Ok();
+}
+
 void put(std::vector<float> &r_values, const glm::dvec3 &p_value) {
 	for (int i = 0; i < 3; i++) {
 		r_values.push_back(float(p_value[i]));
@@ -85,6 +96,7 @@ struct PathTracer::Impl {
 	struct Film {
 		const PathTracerSettings &settings;
 		CameraRays camera_rays;
+		PixelFilterSampler filter;
 		std::vector<PixelSums> pixels;
 		std::vector<LayerSums> layers;
 		std::atomic<uint64_t> rays{ 0 };
@@ -96,7 +108,7 @@ struct PathTracer::Impl {
 	};
 
 	std::unique_ptr<Film> make_film(const PathTracerSettings &p_settings) const {
-		auto film = std::unique_ptr<Film>(new Film{ p_settings, CameraRays(world.camera, p_settings.width, p_settings.height), {}, {}, {}, {}, {}, 0 });
+		auto film = std::unique_ptr<Film>(new Film{ p_settings, CameraRays(world.camera, p_settings.width, p_settings.height), PixelFilterSampler(p_settings.filter), {}, {}, {}, {}, {}, 0 });
 		film->pixels.resize(size_t(p_settings.width) * p_settings.height);
 		film->layers.resize(p_settings.aov ? film->pixels.size() : 0);
 		return film;
@@ -107,18 +119,20 @@ struct PathTracer::Impl {
 		PixelSums &pixel = r_film.pixels[index];
 		for (uint32_t i = 0; i < p_samples; i++) {
 			Random random(r_film.settings.seed, index, pixel.count);
-			const float x = float(p_x) + random.next();
-			PathSample sample = r_integrator.trace(x, float(p_y) + random.next(), random);
-			if (!is_finite(sample.radiance) || !is_finite(sample.direct)) {
-				sample.radiance = sample.direct = Vector3(0.0f);
+			const float x = float(p_x) + 0.5f + r_film.filter.sample(random.next());
+			const float y = float(p_y) + 0.5f + r_film.filter.sample(random.next());
+			PathLayers layers;
+			Vector3 radiance = r_integrator.trace(x, y, random, r_film.layers.empty() ? nullptr : &layers);
+			if (!is_finite(radiance) || !is_finite(layers.direct)) {
+				radiance = layers.direct = Vector3(0.0f);
 				r_film.bad_samples++;
 			}
-			const glm::dvec3 value(sample.radiance);
+			const glm::dvec3 value(radiance);
 			pixel.sum += value;
 			pixel.square += value * value;
 			pixel.count++;
 			if (!r_film.layers.empty()) {
-				r_film.layers[index].add(sample);
+				r_film.layers[index].add(layers);
 			}
 		}
 	}
@@ -201,11 +215,8 @@ Result<std::unique_ptr<PathTracer>> PathTracer::create(const RenderScene &p_scen
 }
 
 Result<PathTracerResult> PathTracer::render(const PathTracerSettings &p_settings, const std::function<void(const PathTracerProgress &)> &p_progress) {
-	if (p_settings.width < 1 || p_settings.width > MAX_SIZE || p_settings.height < 1 || p_settings.height > MAX_SIZE) {
-		return make_error("path tracer: size {}x{} is outside 1 to {}", p_settings.width, p_settings.height, MAX_SIZE);
-	}
-	if (p_settings.spp < 1 || p_settings.spp > MAX_SPP) {
-		return make_error("path tracer: {} samples a pixel are outside 1 to {}", p_settings.spp, MAX_SPP);
+	if (const Status status = check_settings(p_settings); !status) {
+		return status.error();
 	}
 	const auto start = std::chrono::steady_clock::now();
 	const std::unique_ptr<Impl::Film> film = impl->make_film(p_settings);
@@ -241,32 +252,39 @@ Result<PathTracerThroughput> PathTracer::measure_throughput(const PathTracerSett
 	constexpr size_t MAX_RECORDED = 4'000'000;
 	// The process's CPU time, all threads together: other work on the machine doesn't count.
 	const auto cpu_seconds = [] { return double(std::clock()) / CLOCKS_PER_SEC; };
-	const double start = cpu_seconds();
-	const Result<PathTracerResult> timed = render(p_settings);
-	if (!timed) {
-		return timed.error();
+	if (const Status status = check_settings(p_settings); !status) {
+		return status.error();
 	}
 	const uint32_t threads = thread_count(p_settings);
 	PathTracerThroughput result;
-	result.path_tracer_mrays_s = double(timed.value().rays) * threads / (cpu_seconds() - start) * 1e-6;
-	const std::unique_ptr<Impl::Film> film = impl->make_film(p_settings);
+	std::unique_ptr<Impl::Film> film = impl->make_film(p_settings);
 	film->recordings.resize(threads);
 	film->recording_limit = MAX_RECORDED / threads;
-	for (uint32_t sample = 0; sample < p_settings.spp && result.recorded_rays < MAX_RECORDED; sample++) {
+	uint32_t samples = 0;
+	while (samples < p_settings.spp && result.recorded_rays < MAX_RECORDED) {
 		impl->trace_pass(*film, 1);
+		samples++;
 		result.recorded_rays = 0;
 		for (const std::vector<Ray> &recording : film->recordings) {
 			result.recorded_rays += recording.size();
 		}
 	}
-	// Repeated until it has run for as long as a steady figure needs.
-	uint64_t replayed = 0;
-	const double replay_start = cpu_seconds();
-	while (replayed == 0 || cpu_seconds() - replay_start < 1.0) {
+	// The same samples again, in turn with their bare rays, so that both see the same machine; for as long as a steady figure needs.
+	uint64_t traced = 0, replayed = 0;
+	double trace_seconds = 0, replay_seconds = 0;
+	for (uint32_t done = 0; done < p_settings.spp || trace_seconds < 1.0 || replay_seconds < 1.0; done += samples) {
+		const double start = cpu_seconds();
+		const std::unique_ptr<Impl::Film> again = impl->make_film(p_settings);
+		impl->trace_pass(*again, samples);
+		const double middle = cpu_seconds();
 		run_threads(threads, [&](uint32_t p_thread) { impl->world.scene->count_hits(film->recordings[p_thread]); });
+		trace_seconds += middle - start;
+		replay_seconds += cpu_seconds() - middle;
+		traced += again->rays;
 		replayed += result.recorded_rays;
 	}
-	result.bare_mrays_s = double(replayed) * threads / (cpu_seconds() - replay_start) * 1e-6;
+	result.path_tracer_mrays_s = double(traced) * threads / trace_seconds * 1e-6;
+	result.bare_mrays_s = double(replayed) * threads / replay_seconds * 1e-6;
 	return result;
 }
 

@@ -20,6 +20,12 @@
 
 namespace lucent {
 
+// How a pixel weighs what is around its centre. Samples are drawn by the filter and count alike, so pixels stay independent.
+enum class PixelFilter : uint8_t {
+	BOX, // the mean over the pixel, as a raster frame with all samples
+	BLACKMAN_HARRIS, // 1.5 pixels wide in each direction, what Cycles does by default
+};
+
 struct PathTracerSettings {
 	uint32_t width = 256;
 	uint32_t height = 144;
@@ -27,6 +33,7 @@ struct PathTracerSettings {
 	uint32_t seed = 0;
 	uint32_t threads = 0; // 0: as many as the machine has. The result doesn't depend on it
 	double time_limit_s = 0; // 0: none. Stops after the pass that reaches it
+	PixelFilter filter = PixelFilter::BOX;
 	bool aov = false; // keep the layers of the first hit
 	const std::atomic<bool> *cancel = nullptr; // set by another thread or a signal: stop, keep what there is
 };
@@ -75,7 +82,8 @@ public:
 	// Fails for sizes outside 1..16384 and spp outside 1..2^24. p_progress: after each pass, on the calling thread; may be empty.
 	Result<PathTracerResult> render(const PathTracerSettings &p_settings, const std::function<void(const PathTracerProgress &)> &p_progress = {});
 
-	// Renders p_settings, then replays at most 4 million of its rays through rtcIntersect1 with as many threads.
+	// Records at most 4 million rays of p_settings' samples, then traces those samples and replays the rays through rtcIntersect1 in turn, with
+	// as many threads, until spp samples are done and both have run for a second. Shadow rays are replayed as nearest hits too.
 	Result<PathTracerThroughput> measure_throughput(const PathTracerSettings &p_settings);
 
 private:

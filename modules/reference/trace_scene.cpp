@@ -142,6 +142,7 @@ uint32_t TraceScene::add_material(const RenderScene &p_scene, const Material *p_
 	// metallic multiplies its texture, so 0 stays 0.
 	material.lambertian = parameters.metallic == 0.0f && (parameters.specular == 0.0f || parameters.specular_tint == Vector3(0.0f));
 	const bool emission_texture = material.has_texture(TextureSlot::EMISSION) && !parameters.emission_on_texture_multiplies && parameters.emission_energy != 0.0f;
+	material.shines = parameters.emission != Vector3(0.0f) || material.has_texture(TextureSlot::EMISSION);
 	material.emissive = !parameters.unshaded && parameters.blend == MaterialBlend::MIX && (parameters.emission != Vector3(0.0f) || emission_texture);
 	materials.push_back(material);
 	material_indices.emplace_back(p_material, uint32_t(materials.size() - 1));

@@ -35,6 +35,7 @@ struct TraceMaterial {
 	brdf::BrdfLobes lobes; // where no texture or vertex colour changes them
 	bool constant = false; // lobes and albedo hold everywhere
 	bool lambertian = false; // no specular lobe anywhere
+	bool shines = false; // has an emission or a texture of it
 	bool emissive = false; // emits somewhere, and light sampling may find it
 
 	bool has_texture(TextureSlot p_slot) const { return (texture_mask >> uint32_t(p_slot)) & 1; }
