@@ -52,17 +52,23 @@ std::vector<ScaleCase> make_cases(const SpeedPreset &p_preset) {
 	for (const uint32_t count : cpu ? std::vector<uint32_t>{ 1, 2, 4 } : std::vector<uint32_t>{ 1, 2, 3, 4, 5, 6, 7, 8 }) {
 		add_setting(cases, "cascades", count, &SdfgiSettings::cascades);
 	}
-	for (const uint32_t height : cpu ? std::vector<uint32_t>{ 135, 540 } : std::vector<uint32_t>{ 540, 720, 1080, 1440, 2160 }) {
+	for (const uint32_t height : cpu ? std::vector<uint32_t>{ 270, 540 } : std::vector<uint32_t>{ 540, 720, 1080, 1440, 2160 }) {
 		add_plain(cases, "picture's height", std::to_string(height), height, [=](SpeedScene &r_scene) { r_scene.bench.set_size(height * 16 / 9, height); });
 	}
 	for (const uint32_t grid : cpu ? std::vector<uint32_t>{ 64, 128 } : std::vector<uint32_t>{ 64, 128, 256 }) {
 		add_setting(cases, "distance field's size", grid, &SdfgiSettings::grid_size_cells);
 	}
-	for (const uint32_t spacing : { 4u, 8u, 16u }) {
+	for (const uint32_t spacing : cpu ? std::vector<uint32_t>{ 4, 16 } : std::vector<uint32_t>{ 4, 8, 16 }) {
 		add_setting(cases, "probe spacing, cells", spacing, &SdfgiSettings::probe_spacing_cells);
 	}
 	for (const uint32_t rays : cpu ? std::vector<uint32_t>{ 8, 32 } : std::vector<uint32_t>{ 8, 16, 32, 64 }) {
 		add_setting(cases, "rays a probe", rays, &SdfgiSettings::probe_rays);
+	}
+	for (const uint32_t texels : cpu ? std::vector<uint32_t>{ 4, 16 } : std::vector<uint32_t>{ 4, 8, 16 }) {
+		add_setting(cases, "texels of a probe's radiance, an axis", texels, &SdfgiSettings::probe_radiance_texels);
+	}
+	for (const uint32_t texels : cpu ? std::vector<uint32_t>{ 14 } : std::vector<uint32_t>{ 4, 6, 8, 14 }) {
+		add_setting(cases, "texels of a probe's irradiance, an axis", texels, &SdfgiSettings::probe_irradiance_texels);
 	}
 	add_load_cases(cases, p_preset);
 	return cases;
@@ -82,6 +88,11 @@ ScalePoint measure(SpeedScene &r_scene, const SpeedPreset &p_preset, const Scale
 	for (uint32_t i = 0; i < p_preset.scaling_frames; i++) {
 		r_scene.set_sun(1.0f + 0.001f * float(i % 2 + 1));
 		frames.push_back(r_scene.bench.draw());
+	}
+	r_scene.set_sun(1.0f);
+	for (const GiFetches &pass : r_scene.count_fetches()) {
+		point.fetches.fetches += pass.fetches;
+		point.fetches.bytes += pass.bytes;
 	}
 	point.gi_ms = gi_distribution(frames).median;
 	point.frame_ms = gpu_distribution(frames).median;

@@ -89,18 +89,19 @@ Distribution gpu_distribution(const std::vector<FrameSample> &p_frames) {
 	return distribution_of(values);
 }
 
-std::vector<SpeedState> run_states(SpeedScene &r_scene, const SpeedPreset &p_preset, bool p_quiet, uint32_t &r_settled_after) {
-	std::vector<SpeedState> states;
-	const uint32_t frames = p_preset.frames;
+void run_states(SpeedScene &r_scene, bool p_quiet, SpeedResult &r_result) {
+	const SpeedPreset &preset = r_result.preset;
 	const auto run = [&](const std::string &p_name, const std::string &p_what, const auto &p_change) {
-		states.push_back(run_state(r_scene, frames, p_name, p_what, p_change));
+		r_result.states.push_back(run_state(r_scene, preset.frames, p_name, p_what, p_change));
 		if (!p_quiet) {
 			std::fprintf(stderr, "%s\n", p_name.c_str());
 		}
 	};
+	const auto count = [&](const std::string &p_what) { r_result.fetches.push_back({ p_what, r_scene.count_fetches() }); };
 	uint32_t needed = 0;
-	r_settled_after = r_scene.bench.settle(p_preset.settle_frames, &needed) ? needed : 0;
+	r_result.settled_after = r_scene.bench.settle(preset.settle_frames, &needed) ? needed : 0;
 	run("settled", "still camera, nothing changes", [](uint32_t) {});
+	count("settled");
 	run("turning", "3 degrees a frame", [&](uint32_t p_frame) { r_scene.set_camera(turned(r_scene.start(), 3.0f * float(p_frame + 1))); });
 	r_scene.set_camera(r_scene.start());
 	run("light step", "the sun doubles in the first frame", [&](uint32_t p_frame) {
@@ -110,8 +111,9 @@ std::vector<SpeedState> run_states(SpeedScene &r_scene, const SpeedPreset &p_pre
 	});
 	run("light every frame", "the sun changes by 0.1 % in every frame", [&](uint32_t p_frame) { r_scene.set_sun(1.0f + 0.001f * float(p_frame % 2 + 1)); });
 	r_scene.set_sun(1.0f);
+	count("light changes");
 	for (const float speed : { 10.0f, 40.0f }) {
-		run(fmt::format("moving {:g} m/s", speed), "there and back along the court", [&](uint32_t p_frame) { r_scene.set_camera(moved(r_scene.start(), speed / p_preset.frames_a_second * float(p_frame + 1))); });
+		run(fmt::format("moving {:g} m/s", speed), "there and back along the court", [&](uint32_t p_frame) { r_scene.set_camera(moved(r_scene.start(), speed / preset.frames_a_second * float(p_frame + 1))); });
 		r_scene.set_camera(r_scene.start());
 	}
 	const Result<Transform3D> other = r_scene.other_camera();
@@ -121,7 +123,7 @@ std::vector<SpeedState> run_states(SpeedScene &r_scene, const SpeedPreset &p_pre
 		}
 	});
 	r_scene.set_camera(r_scene.start());
-	return states;
+	count("all built anew");
 }
 
 int bench_speed(const BenchOptions &p_options) {
@@ -142,7 +144,7 @@ int bench_speed(const BenchOptions &p_options) {
 	if (const Status status = scene.load(p_options); !status) {
 		return bench_failure(EXIT_BAD_INPUT, status.error());
 	}
-	result.states = run_states(scene, result.preset, p_options.quiet, result.settled_after);
+	run_states(scene, p_options.quiet, result);
 	result.memory = device.value()->memory_report();
 	result.scaling = run_scaling(scene, result.preset, p_options.quiet);
 	nlohmann::ordered_json conditions = bench_conditions(p_options, device.value()->info());

@@ -31,6 +31,12 @@ struct SpeedState {
 	std::vector<FrameSample> frames;
 };
 
+// What the shaders loaded in one frame.
+struct FetchFrame {
+	std::string what;
+	std::vector<GiFetches> passes;
+};
+
 struct PassRow {
 	std::string name;
 	Distribution ms; // of a pass's sum in a frame; frames without it count as 0
@@ -47,12 +53,14 @@ struct ScalePoint {
 	double gi_ms = 0; // median of GI with a light that changes every frame
 	double gather_ms = 0; // … of the passes called sdfgi.gather*
 	double frame_ms = 0; // … of everything
+	GiFetches fetches; // sum of all passes, with a light that changes
 	GiStats gi;
 };
 
 struct SpeedResult {
 	SpeedPreset preset;
 	std::vector<SpeedState> states;
+	std::vector<FetchFrame> fetches;
 	uint32_t settled_after = 0; // frames; 0: not within the limit
 	MemoryReport memory;
 	std::vector<ScalePoint> scaling;
@@ -74,6 +82,8 @@ public:
 
 	SdfgiSettings sdfgi() const { return base_sdfgi; }
 	void set_sdfgi(const SdfgiSettings &p_settings);
+	// Draws a frame whose fetches are counted.
+	std::vector<GiFetches> count_fetches();
 	void add_lamps(uint32_t p_count);
 	void add_emitter(float p_area_m2);
 	// Hides the atrium and shows spheres instead; answers how many triangles those have.
@@ -89,7 +99,8 @@ private:
 	float sun_energy = 1.0f;
 };
 
-std::vector<SpeedState> run_states(SpeedScene &r_scene, const SpeedPreset &p_preset, bool p_quiet, uint32_t &r_settled_after);
+// Fills in the result's states, fetches and settled_after.
+void run_states(SpeedScene &r_scene, bool p_quiet, SpeedResult &r_result);
 std::vector<ScalePoint> run_scaling(SpeedScene &r_scene, const SpeedPreset &p_preset, bool p_quiet);
 
 // Prints the tables, writes speed.json and speed.html.

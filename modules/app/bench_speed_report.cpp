@@ -79,6 +79,34 @@ ReportTable count_table(const SpeedResult &p_result) {
 	return table;
 }
 
+std::string millions(uint64_t p_count) {
+	return fmt::format("{:.2f}", double(p_count) * 1e-6);
+}
+
+// Passes by rows, kinds of frames by columns.
+ReportTable fetch_table(const SpeedResult &p_result) {
+	ReportTable table;
+	table.columns = { "fetches in a frame, millions (MiB)" };
+	for (const FetchFrame &frame : p_result.fetches) {
+		table.columns.push_back(frame.what);
+		GiFetches sum = { .pass = "all" };
+		std::vector<GiFetches> rows = frame.passes;
+		for (const GiFetches &pass : rows) {
+			sum.fetches += pass.fetches;
+			sum.bytes += pass.bytes;
+		}
+		rows.push_back(sum);
+		table.rows.resize(rows.size());
+		for (size_t i = 0; i < rows.size(); i++) {
+			if (table.rows[i].empty()) {
+				table.rows[i].push_back(rows[i].pass);
+			}
+			table.rows[i].push_back(fmt::format("{} ({})", millions(rows[i].fetches), mebibytes(rows[i].bytes)));
+		}
+	}
+	return table;
+}
+
 ReportTable pass_table(const SpeedState &p_state) {
 	ReportTable table;
 	table.columns = { "GPU ms, " + p_state.name, "median", "p95", "p99", "max" };
@@ -92,9 +120,9 @@ ReportTable pass_table(const SpeedState &p_state) {
 
 ReportTable scaling_table(const SpeedResult &p_result) {
 	ReportTable table;
-	table.columns = { "scaling", "value", "GI ms", "of that gather", "frame ms", "first frame's GI ms", "cells", "records", "probes", "rays", "GI MiB" };
+	table.columns = { "scaling", "value", "GI ms", "of that gather", "frame ms", "first frame's GI ms", "cells", "records", "probes", "rays", "M fetches", "GI MiB" };
 	for (const ScalePoint &point : p_result.scaling) {
-		table.rows.push_back({ point.group, point.label, ms(point.gi_ms), ms(point.gather_ms), ms(point.frame_ms), ms(point.first_ms), std::to_string(point.gi.surface_cells), std::to_string(point.gi.surface_records), std::to_string(point.gi.probes), std::to_string(point.gi.rays), mebibytes(point.gi.bytes) });
+		table.rows.push_back({ point.group, point.label, ms(point.gi_ms), ms(point.gather_ms), ms(point.frame_ms), ms(point.first_ms), std::to_string(point.gi.surface_cells), std::to_string(point.gi.surface_records), std::to_string(point.gi.probes), std::to_string(point.gi.rays), millions(point.fetches.fetches), mebibytes(point.gi.bytes) });
 	}
 	return table;
 }
@@ -148,8 +176,13 @@ Json result_json(const SpeedResult &p_result, const Json &p_conditions) {
 	for (const SpeedState &state : p_result.states) {
 		json["states"].push_back(state_json(state));
 	}
+	for (const FetchFrame &frame : p_result.fetches) {
+		for (const GiFetches &pass : frame.passes) {
+			json["fetches"].push_back({ { "frame", frame.what }, { "pass", pass.pass }, { "fetches", pass.fetches }, { "bytes", pass.bytes } });
+		}
+	}
 	for (const ScalePoint &point : p_result.scaling) {
-		json["scaling"].push_back({ { "group", point.group }, { "value", point.x }, { "gi_ms", point.gi_ms }, { "gather_ms", point.gather_ms }, { "frame_ms", point.frame_ms }, { "first_frame_gi_ms", point.first_ms }, { "cells", point.gi.surface_cells }, { "records", point.gi.surface_records }, { "probes", point.gi.probes }, { "rays", point.gi.rays }, { "gi_bytes", point.gi.bytes } });
+		json["scaling"].push_back({ { "group", point.group }, { "value", point.x }, { "gi_ms", point.gi_ms }, { "gather_ms", point.gather_ms }, { "frame_ms", point.frame_ms }, { "first_frame_gi_ms", point.first_ms }, { "cells", point.gi.surface_cells }, { "records", point.gi.surface_records }, { "probes", point.gi.probes }, { "rays", point.gi.rays }, { "fetches", point.fetches.fetches }, { "fetched_bytes", point.fetches.bytes }, { "gi_bytes", point.gi.bytes } });
 	}
 	return json;
 }
@@ -186,7 +219,7 @@ Status write_speed(const BenchOptions &p_options, const SpeedResult &p_result, c
 	const SpeedPreset &preset = p_result.preset;
 	const std::string line = conditions_line(p_conditions) + fmt::format("; atrium, {}x{}, {} cascades of {}³ cells, sets of {} frames, {} frames a state, {:g} a second", preset.width, preset.height, p_conditions["cascades"].get<uint32_t>(), preset.grid, p_conditions["frames_to_converge"].get<uint32_t>(), preset.frames, preset.frames_a_second);
 	const std::string settled = p_result.settled_after != 0 ? fmt::format("The light settled after {} frames.", p_result.settled_after) : fmt::format("The light had not settled after {} frames: what is called settled is not.", preset.settle_frames);
-	std::vector<ReportTable> tables = { count_table(p_result), ratio_table(p_result), state_table(p_result) };
+	std::vector<ReportTable> tables = { count_table(p_result), fetch_table(p_result), ratio_table(p_result), state_table(p_result) };
 	if (!preset.cpu) {
 		std::rotate(tables.begin(), tables.end() - 1, tables.end());
 	}
@@ -198,7 +231,7 @@ Status write_speed(const BenchOptions &p_options, const SpeedResult &p_result, c
 	tables.push_back(memory_table(p_result.memory));
 	tables.push_back(scaling_table(p_result));
 	HtmlReport html("Speed: what a frame costs", line);
-	html.paragraph(settled + " GI: the passes of sdfgi.* and gi_world.*; p95 and p99 are percentiles over the frames of a state. In the scaling table a light changes in every frame.");
+	html.paragraph(settled + " GI: the passes of sdfgi.* and gi_world.*; p95 and p99 are percentiles over the frames of a state. In the scaling table a light changes in every frame. Fetches: loads from buffers and textures as the shaders have them, caches or not; a structure or a bilinear lookup is one.");
 	for (const ReportTable &table : tables) {
 		std::printf("%s\n", table_text(table).c_str());
 		html.table(table);

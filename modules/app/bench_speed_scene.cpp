@@ -43,6 +43,16 @@ Status SpeedScene::load(const BenchOptions &p_options) {
 	return Ok();
 }
 
+std::vector<GiFetches> SpeedScene::count_fetches() {
+	SdfgiSettings counting = bench.environment()->sdfgi;
+	counting.count_fetches = true;
+	set_sdfgi(counting);
+	std::vector<GiFetches> result = bench.draw().stats.gi.fetches;
+	counting.count_fetches = false;
+	set_sdfgi(counting);
+	return result;
+}
+
 void SpeedScene::set_sun(float p_factor) {
 	auto &sun = dynamic_cast<scene::Light3D &>(*find_node(bench.root(), "Sun").value());
 	Light parameters = sun.get_parameters();

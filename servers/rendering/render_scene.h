@@ -334,6 +334,13 @@ struct Viewport {
 	bool aov = false; // keep the buffers that viewport_get_image needs besides colour
 };
 
+// Loads that a pass of GI made from buffers and textures, as its shader has them: a structure or a bilinear lookup is one.
+struct GiFetches {
+	std::string pass; // "sdfgi.gather_gi"
+	uint64_t fetches = 0;
+	uint64_t bytes = 0; // of what was named, whatever the caches answered
+};
+
 // What GI did, for --stats and for deciding when a picture is done.
 struct GiStats {
 	uint64_t frames = 0; // since the last reset
@@ -343,6 +350,7 @@ struct GiStats {
 	uint64_t surface_records = 0;
 	uint64_t probes = 0;
 	uint64_t bytes = 0; // GPU memory of GI
+	std::vector<GiFetches> fetches; // of the last frame, with SdfgiSettings::count_fetches; passes that build the world are not among them
 };
 
 struct RenderScene {

@@ -79,6 +79,7 @@ public:
 	void environment_set_sky_orientation(EnvironmentRid p_environment, const Basis &p_orientation);
 	void environment_set_ambient_light(EnvironmentRid p_environment, const Vector3 &p_linear, AmbientSource p_source, float p_energy, float p_sky_contribution);
 	void environment_set_tonemap(EnvironmentRid p_environment, ToneMapper p_tone_mapper, float p_exposure, float p_white);
+	// Settings out of their ranges (sdfgi_settings.h): an error, and nothing changes.
 	void environment_set_sdfgi(EnvironmentRid p_environment, const SdfgiSettings &p_settings);
 
 	CameraRid camera_create();

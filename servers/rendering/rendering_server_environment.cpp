@@ -76,7 +76,14 @@ void RenderingServer::environment_set_tonemap(EnvironmentRid p_environment, Tone
 }
 
 void RenderingServer::environment_set_sdfgi(EnvironmentRid p_environment, const SdfgiSettings &p_settings) {
-	impl->edit_environment(p_environment, [&](Environment &r_environment) { r_environment.sdfgi = p_settings; });
+	const std::string wrong = sdfgi_settings_error(p_settings);
+	ERR_FAIL_COND_MSG(!wrong.empty(), "{}", wrong);
+	Environment *environment = impl->scene.environments.get(p_environment);
+	ERR_FAIL_COND_MSG(environment == nullptr, "no such environment");
+	// No light changes: SDFGI itself knows what a setting of its own starts anew.
+	environment->sdfgi = p_settings;
+	environment->version = impl->next_version();
+	impl->scene.version++;
 }
 
 CameraRid RenderingServer::camera_create() {

@@ -79,6 +79,66 @@ TEST_SUITE("gpu") {
 		}
 	}
 
+	TEST_CASE("white furnace: probes of any resolution read a constant sky as 1") {
+		GpuFixture fixture;
+		for (const auto &[radiance, irradiance] : { std::pair(4u, 14u), std::pair(16u, 4u) }) {
+			SdfgiSettings settings = small_settings(SdfgiYScale::SCALE_100_PERCENT);
+			settings.probe_radiance_texels = radiance;
+			settings.probe_irradiance_texels = irradiance;
+			settings.probe_rays = 32; // more than 4 x 4 texels have room for
+			GiTestScene scene(fixture.device());
+			scene.add_box(Vector3(-0.55f), Vector3(0.55f), scene.add_material(Vector3(1.0f)));
+			scene.set_sky(Vector3(1.0f), Vector3(1.0f));
+			Sdfgi sdfgi(fixture.device());
+			run_sdfgi(fixture.device(), sdfgi, settings, scene.upload(), Vector3(0.0f), 200);
+			REQUIRE(sdfgi.stats().converged);
+			const std::vector<Vector3> points(6, Vector3(1.5f, 0.1f, 0.1f)); // in the air, where probes alone answer
+			for (const Vector3 &value : gather_at(fixture.device(), sdfgi, points, { std::begin(AXES), std::end(AXES) })) {
+				CHECK(value.x == doctest::Approx(1.0f).epsilon(0.01));
+			}
+		}
+	}
+
+	TEST_CASE("fetches are counted by pass, and counting changes no light") {
+		GpuFixture fixture;
+		GiTestScene scene(fixture.device());
+		scene.add_box(Vector3(-2.03f, -1.51f, -1.77f), Vector3(2.11f, 1.43f, 1.91f), scene.add_material(Vector3(0.5f), Vector3(1.0f)), true);
+		const GiSceneView view = scene.upload();
+		const std::vector<Vector3> points(6, Vector3(0.1f, 0.2f, 0.3f));
+		std::vector<std::vector<Vector3>> light;
+		std::vector<GiFetches> fetches;
+		for (const bool counts : { false, true }) {
+			SdfgiSettings settings = small_settings(SdfgiYScale::SCALE_100_PERCENT);
+			settings.count_fetches = counts;
+			Sdfgi sdfgi(fixture.device());
+			run_sdfgi(fixture.device(), sdfgi, settings, view, Vector3(0.0f), 1);
+			fetches = sdfgi.stats().fetches;
+			CHECK(fetches.empty() == !counts);
+			run_sdfgi(fixture.device(), sdfgi, settings, view, Vector3(0.0f), 200);
+			// A frame at rest: the gather below is all that it counts.
+			sdfgi.update(fixture.device().begin_frame(), settings, view, Vector3(0.0f));
+			fixture.device().end_frame();
+			light.push_back(gather_at(fixture.device(), sdfgi, points, { std::begin(AXES), std::end(AXES) }));
+			sdfgi.after_frame();
+			if (counts) {
+				// At rest only the gather loads anything: each of the six pixels, which no record answers, its depth and normal twice.
+				for (const GiFetches &pass : sdfgi.stats().fetches) {
+					CHECK_MESSAGE((pass.fetches > 0) == pass.pass.starts_with("sdfgi.gather"), pass.pass);
+				}
+				CHECK(sdfgi.stats().fetches.back().fetches > 6 * 3);
+			}
+		}
+		CHECK(light[0] == light[1]);
+		for (const GiFetches &pass : fetches) {
+			if (pass.pass == "sdfgi.light_lamps" || pass.pass.starts_with("sdfgi.gather")) {
+				CHECK_MESSAGE(pass.fetches == 0, pass.pass);
+			} else {
+				CHECK_MESSAGE(pass.fetches > 0, pass.pass);
+				CHECK_MESSAGE(pass.bytes >= 4 * pass.fetches, pass.pass);
+			}
+		}
+	}
+
 	TEST_CASE("opposite walls under a symmetric sky agree") {
 		GpuFixture fixture;
 		GiTestScene scene(fixture.device());

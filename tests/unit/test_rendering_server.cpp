@@ -111,6 +111,25 @@ TEST_CASE("rendering server: materials, meshes and visibility dirty their instan
 	CHECK(grew());
 }
 
+TEST_CASE("sdfgi settings: values out of their ranges are named") {
+	CHECK(sdfgi_settings_error(SdfgiSettings()).empty());
+	SdfgiSettings settings;
+	settings.min_cell_size_m = 0.01f;
+	settings.probe_irradiance_texels = 14;
+	CHECK(sdfgi_settings_error(settings).empty());
+	settings.probe_irradiance_texels = 15;
+	CHECK(sdfgi_settings_error(settings).find("probe_irradiance_texels 15") != std::string::npos);
+	settings = {};
+	settings.grid_size_cells = 96;
+	CHECK(sdfgi_settings_error(settings).find("grid_size_cells 96") != std::string::npos);
+	settings.grid_size_cells = 256;
+	settings.probe_spacing_cells = 4;
+	CHECK(sdfgi_settings_error(settings).find("33 probes") != std::string::npos);
+	settings = {};
+	settings.min_cell_size_m = std::nanf("");
+	CHECK_FALSE(sdfgi_settings_error(settings).empty());
+}
+
 TEST_CASE("rendering server: lights and environments change only the light's version") {
 	World world;
 	const uint64_t geometry = world.state().geometry_version;
@@ -134,6 +153,12 @@ TEST_CASE("rendering server: lights and environments change only the light's ver
 	version = world.state().light_version;
 	world.server.environment_set_bg_energy(environment, 2.0f);
 	CHECK(world.state().light_version > version);
+	version = world.state().light_version;
+	SdfgiSettings sdfgi;
+	sdfgi.energy = 2.0f;
+	world.server.environment_set_sdfgi(environment, sdfgi);
+	CHECK(world.state().light_version == version);
+	CHECK(world.server.scenario_snapshot().environments.get(environment)->sdfgi.energy == 2.0f);
 	CHECK(world.state().geometry_version == geometry);
 }
 

@@ -126,7 +126,7 @@ RecordCandidates find_candidates(GiQuery query, uint cascade) {
 		}
 		uint index = cell_first_record(packed_records);
 		for (uint faces = packed_records & 63u; faces != 0u && index < end && found.count < MAX_CANDIDATES; faces &= faces - 1u, index++) {
-			WorldRecord record = world_records[index];
+			WorldRecord record = stored_record(index);
 			float facing = dot(n, record_normal(record));
 			if (facing < 0.5 || !record_has_start(record)) {
 				continue;
@@ -159,9 +159,9 @@ vec4 sample_records(GiQuery query, uint cascade) {
 	float weight_sum = 0.0;
 	for (uint i = 0u; i < found.count; i++) {
 		uint index = found.indices[i] & ~CANDIDATE_SEEN;
-		bool seen = (found.indices[i] & CANDIDATE_SEEN) != 0u || short_way_is_free(cascade, query.start_m, record_start_m(world_records[index]));
+		bool seen = (found.indices[i] & CANDIDATE_SEEN) != 0u || short_way_is_free(cascade, query.start_m, record_start_m(stored_record(index)));
 		if (seen) {
-			sum += found.weights[i] * vec4_from_half4(world_record_light[index].zw).rgb;
+			sum += found.weights[i] * light_onto_record(index);
 			weight_sum += found.weights[i];
 		}
 	}
@@ -194,6 +194,7 @@ ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_r
 		ivec3 probe = base + corner;
 		uint index = probe_index(cascade, probe);
 		ProbePlace place = gi_probe_places[index];
+		count_fetch(4u);
 		if (!probe_is_free(place)) {
 			continue;
 		}
@@ -209,9 +210,11 @@ ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_r
 		if (with_visibility && trace_world(query.start_m, to_probe / distance_m, distance_m, cascade).hit) {
 			continue;
 		}
-		sums.irradiance += weight * textureLod(sampler2D(gi_probe_irradiance, gi_probe_sampler), probe_uv(index, query.normal, PROBE_IRRADIANCE_TEXELS, irradiance_size), 0.0).rgb;
+		count_fetch(TEXEL_LOOKUP_BYTES);
+		sums.irradiance += weight * textureLod(sampler2D(gi_probe_irradiance, gi_probe_sampler), probe_uv(index, query.normal, int(probe_params.irradiance_texels), irradiance_size), 0.0).rgb;
 		if (with_radiance) {
-			sums.radiance += weight * textureLod(sampler2D(gi_probe_radiance, gi_probe_sampler), probe_uv(index, reflected, PROBE_RADIANCE_TEXELS, radiance_size), 0.0).rgb;
+			count_fetch(TEXEL_LOOKUP_BYTES);
+			sums.radiance += weight * textureLod(sampler2D(gi_probe_radiance, gi_probe_sampler), probe_uv(index, reflected, int(probe_params.radiance_texels), radiance_size), 0.0).rgb;
 		}
 		sums.weight += weight;
 	}

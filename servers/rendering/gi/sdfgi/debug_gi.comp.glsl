@@ -86,7 +86,7 @@ vec4 probe_spheres(uint cascade, vec3 origin_m, vec3 direction, float t_max_m) {
 			float t_hit = along - sqrt(radius_m * radius_m - off_squared);
 			if (t_hit > 0.0 && t_hit < result.w) {
 				vec3 normal = normalize(origin_m + direction * t_hit - center_m);
-				vec2 uv = probe_uv(index, normal, PROBE_IRRADIANCE_TEXELS, vec2(textureSize(gi_probe_irradiance, 0)));
+				vec2 uv = probe_uv(index, normal, int(probe_params.irradiance_texels), vec2(textureSize(gi_probe_irradiance, 0)));
 				vec3 color = probe_is_free(gi_probe_places[index]) ? textureLod(sampler2D(gi_probe_irradiance, gi_probe_sampler), uv, 0.0).rgb : vec3(1.0, 0.0, 1.0);
 				result = vec4(color, t_hit);
 			}

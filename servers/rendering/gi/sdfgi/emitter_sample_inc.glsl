@@ -14,7 +14,7 @@ vec3 emitter_point_m(WorldRecord record, vec2 u) {
 	vec3 cell_m = world.cascades[record_cascade(record)].cell_m;
 	vec3 center = record_position_in_cell(record);
 	uint index = find_cell(record_cascade(record), storage_from_world_cell(record_world_cell(record)));
-	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
+	uvec2 bits = index < WORLD_LOST_CELL ? stored_cell(index).bits : uvec2(0u);
 	uint mask = columns_of_bits(bits, axis);
 	uint count = uint(bitCount(mask));
 	if (count == 0u) {
@@ -40,6 +40,7 @@ uint find_emitter(float u) {
 	uint high = emitter_count - 1u;
 	for (uint i = 0u; i < 24u && low < high; i++) {
 		uint middle = (low + high) / 2u;
+		count_fetch(4u);
 		if (emitters[middle].cdf > u) {
 			high = middle;
 		} else {
@@ -62,7 +63,8 @@ struct EmitterSample {
 
 EmitterSample sample_emitter(vec3 from_m, vec3 normal, float pick, vec2 u) {
 	Emitter emitter = emitters[find_emitter(pick)];
-	WorldRecord record = world_records[emitter.record];
+	count_fetch(12u);
+	WorldRecord record = stored_record(emitter.record);
 	EmitterSample result;
 	result.record = emitter.record;
 	vec3 way = emitter_point_m(record, u) - from_m;
@@ -106,7 +108,7 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 // The ray has met the emitter's own cell, or emission of the same face at most a cell before the emitter's plane: solid bits stand before
 // the surface, and a record's plane is the mean of what its cell holds, so that a flat ray meets neighbours before the point it is meant for.
 bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
-	WorldRecord emitter = world_records[target];
+	WorldRecord emitter = stored_record(target);
 	if (hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter)) {
 		return true;
 	}
@@ -115,14 +117,14 @@ bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > float(WORLD_SUB_VOXELS) * sub_voxel_along_m(hit.cascade, normal)) {
 		return false;
 	}
-	uint packed_records = world_cells[hit.cell].records;
+	uint packed_records = stored_cell(hit.cell).records;
 	uint faces = packed_records & 63u;
 	uint face = record_face(emitter);
 	uint index = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)));
 	if ((faces & (1u << face)) == 0u || index >= record_end(hit.cascade)) {
 		return false;
 	}
-	WorldRecord neighbour = world_records[index];
+	WorldRecord neighbour = stored_record(index);
 	if (neighbour.emission == 0u || !record_has_start(neighbour)) {
 		return false;
 	}

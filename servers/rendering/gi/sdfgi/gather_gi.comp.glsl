@@ -36,4 +36,5 @@ void main() {
 	if (needs_rays) {
 		ray_pixels[group_first + slot] = uint(pixel.x) | (uint(pixel.y) << 16);
 	}
+	store_fetches(FETCHES_GATHER_GI);
 }

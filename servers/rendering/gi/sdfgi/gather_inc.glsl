@@ -3,6 +3,7 @@
 #ifndef GATHER_INC
 #define GATHER_INC
 #include "servers/rendering/gi/gi_sample_inc.glsl"
+#include "servers/rendering/gi/world/fetch_counts_inc.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = GATHER_DEPTH) uniform texture2D depth_texture;
@@ -26,12 +27,14 @@ struct GatherSurface {
 
 // False: nothing is drawn at the pixel.
 bool load_surface(ivec2 pixel, out GatherSurface surface) {
+	count_fetch(4u);
 	float depth = texelFetch(depth_texture, pixel, 0).r;
 	if (depth <= 0.0) {
 		return false;
 	}
 	vec2 ndc = (vec2(pixel) + 0.5) / vec2(float(constants.width), float(constants.height)) * 2.0 - 1.0;
 	vec4 h = constants.world_from_clip * vec4(ndc, depth, 1.0);
+	count_fetch(8u);
 	vec4 normal = texelFetch(normal_roughness, pixel, 0);
 	surface.position_m = h.xyz / h.w;
 	surface.normal = normalize(normal.xyz);

@@ -17,12 +17,7 @@ vec3 traced_reflection(vec3 position_m, vec3 normal, vec3 view) {
 	return hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);
 }
 
-void main() {
-	uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-	if (i >= ray_pixel_count) {
-		return;
-	}
-	ivec2 pixel = ivec2(uvec2(ray_pixels[i], ray_pixels[i] >> 16) & 0xFFFFu);
+void gather_pixel(ivec2 pixel) {
 	GatherSurface surface;
 	if (!load_surface(pixel, surface)) {
 		return;
@@ -33,4 +28,14 @@ void main() {
 		gi.radiance = mix(gi.radiance, traced_reflection(surface.position_m, surface.normal, surface.view) * probe_params.energy * gi.weight, traced);
 	}
 	store_gi(pixel, gi);
+}
+
+void main() {
+	uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+	if (i >= ray_pixel_count) {
+		return;
+	}
+	gather_pixel(ivec2(uvec2(ray_pixels[i], ray_pixels[i] >> 16) & 0xFFFFu));
+	count_fetch(4u);
+	store_fetches(FETCHES_GATHER_RAYS);
 }

@@ -46,7 +46,7 @@ LightRay ray_to_lamp(LightData light, vec3 from_m, vec3 normal, vec2 u) {
 	return ray;
 }
 
-vec3 light_of_lane(WorldRecord record, uint lane) {
+vec3 light_of_lane(WorldRecord record, uint i, uint lane) {
 	uint seed = record_seed(record);
 	uint sample_index = constants.turn * RECORD_LANES + lane;
 	LaneOrigin origin = lane_origin(record, seed, sample_index);
@@ -61,6 +61,7 @@ vec3 light_of_lane(WorldRecord record, uint lane) {
 		if (lamp >= constants.light_count) {
 			continue;
 		}
+		count_fetch(92u);
 		LightRay ray = ray_to_lamp(lights[lamp], origin.surface_m, origin.normal, r2_point(sample_index, seed + 7u));
 		if (ray.light == vec3(0.0)) {
 			continue;
@@ -73,24 +74,5 @@ vec3 light_of_lane(WorldRecord record, uint lane) {
 }
 
 void main() {
-	uint lane = gl_LocalInvocationIndex % RECORD_LANES;
-	uint count = records_of(constants.cascade);
-	if (gl_LocalInvocationIndex == 0u) {
-		group_rays = 0u;
-	}
-	barrier();
-	for (uint group = gl_WorkGroupID.x; group < (count + 7u) / 8u; group += gl_NumWorkGroups.x) {
-		uint i = group * 8u + gl_LocalInvocationIndex / RECORD_LANES;
-		uint index = record_base(constants.cascade) + min(i, count - 1u);
-		WorldRecord record = world_records[index];
-		bool active_record = i < count && record_is_active(record);
-		vec3 light = vec3(0.0);
-		if (active_record) {
-			light = light_of_lane(record, lane);
-		}
-		add_to_state(index * 2u + 1u, light, active_record);
-	}
-	if (gl_LocalInvocationIndex == 0u) {
-		atomicAdd(statistics.rays, group_rays);
-	}
+	trace_lanes(1u, FETCHES_LIGHT_LAMPS);
 }

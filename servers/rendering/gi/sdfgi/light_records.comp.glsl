@@ -33,9 +33,10 @@ vec3 gathered_by_lane(WorldRecord record, RayCache cache, uint turns, uint i, ui
 	vec3 reflected = vec3(0.0);
 	uint sky_turns = 0u;
 	for (uint turn = 0u; turn < turns; turn++) {
+		count_fetch(4u);
 		uint met = ray_cache[ray_cache_place(cache, turn, i, lane)];
 		if (met < RAY_MET_SKY) {
-			reflected += vec4_from_half4(world_record_light[met].xy).rgb;
+			reflected += light_from_record(met);
 		}
 		sky_turns |= met == RAY_MET_SKY ? 1u << turn : 0u;
 	}
@@ -48,14 +49,19 @@ vec3 gathered_by_lane(WorldRecord record, RayCache cache, uint turns, uint i, ui
 }
 
 void store(uint index, WorldRecord record, vec3 bounced) {
+	count_fetch(12u);
 	vec3 still = bounced + state[index * 2u] / float(constants.turns_done);
-	vec3 lamps = constants.lamp_turns_done > 0u ? state[index * 2u + 1u] / float(constants.lamp_turns_done) : vec3(0.0);
+	vec3 lamps = vec3(0.0);
+	if (constants.lamp_turns_done > 0u) {
+		count_fetch(12u);
+		lamps = state[index * 2u + 1u] / float(constants.lamp_turns_done);
+	}
 	uvec4 result;
 	// Lamps may be negative, light isn't.
 	result.xy = half4_from_vec4(vec4(max(still + lamps, vec3(0.0)) * color_from_unorm111110(record.albedo), 1.0));
 	result.zw = half4_from_vec4(vec4(still, 1.0));
 	new_light[index] = result;
-	vec3 before = vec4_from_half4(world_record_light[index].zw).rgb;
+	vec3 before = light_onto_record(index);
 	float brightness = dot(still, vec3(1.0));
 	if (brightness > 1e-6) {
 		atomicAdd(statistics.lit_records, 1u);
@@ -73,7 +79,7 @@ void main() {
 	for (uint group = gl_WorkGroupID.x; group < (count + 7u) / 8u; group += gl_NumWorkGroups.x) {
 		uint i = group * 8u + gl_LocalInvocationIndex / RECORD_LANES;
 		uint index = record_base(constants.cascade) + min(i, count - 1u);
-		WorldRecord record = world_records[index];
+		WorldRecord record = stored_record(index);
 		bool active_record = i < count && record_is_active(record);
 		group_light[gl_LocalInvocationIndex] = active_record ? gathered_by_lane(record, cache, turns, i, lane) : vec3(0.0);
 		barrier();
@@ -90,4 +96,5 @@ void main() {
 		}
 		barrier();
 	}
+	store_fetches(FETCHES_LIGHT_RECORDS);
 }

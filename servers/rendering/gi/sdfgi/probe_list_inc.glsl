@@ -20,6 +20,7 @@ layout(push_constant, scalar) uniform ProbePush {
 uint place_of_slot(uint slot) {
 	if (constants.far == 0u) {
 		uint start = probe_list_start(constants.cascade);
+		count_fetch(4u);
 		return slot < probe_list[start] ? probe_list[start + PROBE_LIST_HEADER_WORDS + slot] : NO_PLACE;
 	}
 	uint place = slot + probe_params.running_frame % PROBE_FAR_PERIOD * far_slice_size();

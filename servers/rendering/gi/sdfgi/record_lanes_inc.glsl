@@ -3,6 +3,7 @@
 #ifndef RECORD_LANES_INC
 #define RECORD_LANES_INC
 #include "servers/rendering/gi/sdfgi/sdfgi_io.h"
+#include "servers/rendering/gi/world/fetch_counts_inc.glsl"
 #include "servers/rendering/gi/world/surface_light_inc.glsl"
 #include "servers/rendering/shaders/sampling_inc.glsl"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays from surface records, eight lanes a record, for trace_records and light_lamps: where they start, and the sums that they go into.
+// Rays from surface records, eight lanes a record, for trace_records and light_lamps: where they start, and the sums that they go into. The
+// pass defines light_of_lane.
 #ifndef RECORD_RAYS_INC
 #define RECORD_RAYS_INC
 #include "servers/rendering/gi/sdfgi/record_lanes_inc.glsl"
@@ -80,7 +81,7 @@ WorldHit trace_from_record(LaneOrigin origin, LightRay ray, out float skipped_m)
 
 LaneOrigin lane_origin(WorldRecord record, uint seed, uint sample_index) {
 	uint index = find_cell(record_cascade(record), storage_from_world_cell(record_world_cell(record)));
-	uvec2 bits = index < WORLD_LOST_CELL ? world_cells[index].bits : uvec2(0u);
+	uvec2 bits = index < WORLD_LOST_CELL ? stored_cell(index).bits : uvec2(0u);
 	return jittered_origin(record, bits, r2_point(sample_index, seed + 5u));
 }
 
@@ -89,13 +90,44 @@ void add_to_state(uint place, vec3 light, bool active_record) {
 	group_light[gl_LocalInvocationIndex] = light;
 	barrier();
 	if (gl_LocalInvocationIndex % RECORD_LANES == 0u && active_record) {
-		vec3 sum = constants.turn == 0u ? vec3(0.0) : state[place];
+		vec3 sum = vec3(0.0);
+		if (constants.turn > 0u) {
+			count_fetch(12u);
+			sum = state[place];
+		}
 		for (uint k = 0u; k < RECORD_LANES; k++) {
 			sum += group_light[gl_LocalInvocationIndex + k];
 		}
 		state[place] = sum;
 	}
 	barrier();
+}
+
+// What a lane's rays of this turn add to the record's sum. `i`: the record's number in its cascade.
+vec3 light_of_lane(WorldRecord record, uint i, uint lane);
+
+// All records of the cascade. `state_slot`: which of a record's sums. `pass`: FETCHES_*.
+void trace_lanes(uint state_slot, uint pass) {
+	uint count = records_of(constants.cascade);
+	if (gl_LocalInvocationIndex == 0u) {
+		group_rays = 0u;
+	}
+	barrier();
+	for (uint group = gl_WorkGroupID.x; group < (count + 7u) / 8u; group += gl_NumWorkGroups.x) {
+		uint i = group * 8u + gl_LocalInvocationIndex / RECORD_LANES;
+		uint index = record_base(constants.cascade) + min(i, count - 1u);
+		WorldRecord record = stored_record(index);
+		bool active_record = i < count && record_is_active(record);
+		vec3 light = vec3(0.0);
+		if (active_record) {
+			light = light_of_lane(record, i, gl_LocalInvocationIndex % RECORD_LANES);
+		}
+		add_to_state(index * 2u + state_slot, light, active_record);
+	}
+	if (gl_LocalInvocationIndex == 0u) {
+		atomicAdd(statistics.rays, group_rays);
+	}
+	store_fetches(pass);
 }
 
 #endif

@@ -24,6 +24,9 @@ constexpr uint32_t PROBE_RESTART_FRAMES = 8;
 // Rounds of each probe's texels before all counts as settled; probes that are not near take PROBE_FAR_PERIOD frames for one frame's share.
 constexpr uint32_t PROBE_LEAST_ROUNDS = std::max(5, PROBE_FAR_PERIOD);
 
+// By FETCHES_*.
+constexpr const char *COUNTED_PASSES[FETCHES_PASSES] = { "sdfgi.trace_records", "sdfgi.light_lamps", "sdfgi.light_records", "sdfgi.trace_probes", "sdfgi.trace_far_probes", "sdfgi.filter_probes", "sdfgi.filter_far_probes", "sdfgi.gather_gi", "sdfgi.gather_rays" };
+
 struct DebugView {
 	const char *name;
 	uint32_t number; // DEBUG_VIEW_* in debug_gi.comp.glsl
@@ -43,6 +46,7 @@ struct Sdfgi::Impl {
 	OwnedBuffer probe_places;
 	OwnedBuffer probe_list;
 	OwnedBuffer statistics;
+	OwnedBuffer fetch_counts;
 	OwnedBuffer ray_cache;
 	uint32_t ray_cache_words = 0;
 	OwnedBuffer ray_pixels; // of the largest picture so far
@@ -73,7 +77,9 @@ struct Sdfgi::Impl {
 	// Each turn traces all lamps, so many lamps have fewer turns.
 	uint32_t lamp_turns() const { return std::max(turns() / std::max(std::bit_ceil(light_count) / 8, 1u), 1u); }
 	// After which every texel of every probe has been traced since the first frames.
-	uint32_t frames_of_probes() const { return PROBE_RESTART_FRAMES + PROBE_LEAST_ROUNDS * ((PROBE_RADIANCE_TEXELS * PROBE_RADIANCE_TEXELS + settings.probe_rays - 1) / settings.probe_rays); }
+	uint32_t frames_of_probes() const { return PROBE_RESTART_FRAMES + PROBE_LEAST_ROUNDS * probe_texels() / probe_rays(); }
+	uint32_t probe_texels() const { return settings.probe_radiance_texels * settings.probe_radiance_texels; }
+	uint32_t probe_rays() const { return std::min(settings.probe_rays, probe_texels()); }
 	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
 	void create(const SdfgiSettings &p_settings);
 	SdfgiPassInputs pass_inputs() const;
@@ -81,6 +87,7 @@ struct Sdfgi::Impl {
 	void upload_probe_params(PassRecorder &r_recorder, const Vector3 &p_camera_m);
 	void light_frame(PassRecorder &r_recorder);
 	void restart(bool p_geometry);
+	void read_fetches();
 };
 
 Sdfgi::Sdfgi(RenderingDevice &p_device) :
@@ -100,22 +107,25 @@ void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	probe_places = device.create_buffer({ .size_bytes = uint64_t(probes) * sizeof(shader::ProbePlace), .name = "sdfgi.probe_places" });
 	probe_list = device.create_buffer({ .size_bytes = uint64_t(settings.cascades) * (PROBE_LIST_HEADER_WORDS + probes_in_cascade()) * 4, .usage = BUFFER_STORAGE | BUFFER_INDIRECT, .name = "sdfgi.probe_list" });
 	statistics = device.create_buffer({ .size_bytes = sizeof(shader::SdfgiStatistics), .name = "sdfgi.statistics" });
+	fetch_counts = device.create_buffer({ .size_bytes = FETCHES_PASSES * sizeof(shader::FetchCounts), .name = "sdfgi.fetch_counts" });
 	ray_cache_words = uint32_t(std::min({ uint64_t(std::max(settings.ray_cache_mib, 1u)) << 18, uint64_t(settings.cascades) * world->record_capacity() * 8 * turns(), device.info().max_storage_buffer_bytes / 4 }));
 	ray_cache = device.create_buffer({ .size_bytes = uint64_t(ray_cache_words) * 4, .name = "sdfgi.ray_cache" });
+	const uint32_t radiance_tile = settings.probe_radiance_texels + PROBE_BORDER_TEXELS;
+	const uint32_t irradiance_tile = settings.probe_irradiance_texels + PROBE_BORDER_TEXELS;
 	const auto atlas = [&](const char *p_name, uint32_t p_tile) {
 		return device.create_texture({ .format = Format::RGBA16_FLOAT, .width = PROBE_TILES_A_ROW * p_tile, .height = rows * p_tile, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = p_name });
 	};
-	radiance_atlas = atlas("sdfgi.probe_radiance", PROBE_RADIANCE_BORDERED_TEXELS);
-	irradiance_atlas = atlas("sdfgi.probe_irradiance", PROBE_BORDERED_TEXELS);
+	radiance_atlas = atlas("sdfgi.probe_radiance", radiance_tile);
+	irradiance_atlas = atlas("sdfgi.probe_irradiance", irradiance_tile);
 	probe_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
 	cascades_placed = false;
 	stats = {};
 	stats.probes = probes;
-	stats.bytes = world->size_bytes() + uint64_t(ray_cache_words) * 4 + uint64_t(ray_pixel_capacity) * 4 + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (PROBE_RADIANCE_BORDERED_TEXELS * PROBE_RADIANCE_BORDERED_TEXELS + PROBE_BORDERED_TEXELS * PROBE_BORDERED_TEXELS);
+	stats.bytes = world->size_bytes() + uint64_t(ray_cache_words) * 4 + uint64_t(ray_pixel_capacity) * 4 + uint64_t(probes) * sizeof(shader::ProbePlace) + uint64_t(PROBE_TILES_A_ROW) * rows * 8 * (radiance_tile * radiance_tile + irradiance_tile * irradiance_tile);
 }
 
 SdfgiPassInputs Sdfgi::Impl::pass_inputs() const {
-	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .probe_list = probe_list, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .ray_cache = ray_cache, .probes_in_cascade = probes_in_cascade(), .probe_rays = settings.probe_rays };
+	return { .world = *world, .probe_params = probe_params, .probe_places = probe_places, .probe_list = probe_list, .radiance_atlas = radiance_atlas, .irradiance_atlas = irradiance_atlas, .probe_sampler = probe_sampler, .sky = sky, .lights = lights, .statistics = statistics, .ray_cache = ray_cache, .probes_in_cascade = probes_in_cascade(), .fetch_counts = fetch_counts, .counts_fetches = settings.count_fetches, .probe_rays = probe_rays(), .probe_radiance_texels = settings.probe_radiance_texels, .probe_irradiance_texels = settings.probe_irradiance_texels };
 }
 
 // Lists the cascades that must be built anew. True: some moved.
@@ -136,7 +146,9 @@ void Sdfgi::Impl::upload_probe_params(PassRecorder &r_recorder, const Vector3 &p
 	const shader::ProbeParams params = {
 		.probes = probes_axis,
 		.spacing_cells = settings.probe_spacing_cells,
-		.rays = settings.probe_rays,
+		.rays = probe_rays(),
+		.radiance_texels = settings.probe_radiance_texels,
+		.irradiance_texels = settings.probe_irradiance_texels,
 		.frame = frame < PROBE_RESTART_FRAMES ? frame : frame - PROBE_RESTART_FRAMES,
 		.running_frame = running_frame,
 		.normal_bias = settings.normal_bias,
@@ -206,6 +218,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	live.probe_bias = p_settings.probe_bias;
 	live.use_occlusion = p_settings.use_occlusion;
 	live.count_every_frame = p_settings.count_every_frame;
+	live.count_fetches = p_settings.count_fetches;
 	const bool relight = live.bounce_feedback != i.settings.bounce_feedback || live.read_sky_light != i.settings.read_sky_light;
 	if (i.world == nullptr || live != p_settings) {
 		i.create(p_settings);
@@ -232,6 +245,9 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	i.geometry_version = p_scene.geometry_version;
 	i.light_version = p_scene.light_version;
 
+	if (p_settings.count_fetches) {
+		r_recorder.clear_buffer(i.fetch_counts);
+	}
 	i.world->upload_params(r_recorder);
 	i.upload_probe_params(r_recorder, p_camera_position_m);
 	for (const uint32_t cascade : stale) {
@@ -251,8 +267,20 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	}
 }
 
+void Sdfgi::Impl::read_fetches() {
+	const std::vector<shader::FetchCounts> counts = device.read_back_buffer<shader::FetchCounts>(fetch_counts);
+	for (uint32_t pass = 0; pass < FETCHES_PASSES; pass++) {
+		const shader::FetchCounts &count = counts[pass];
+		stats.fetches.push_back({ COUNTED_PASSES[pass], uint64_t(count.fetches_high) << 32 | count.fetches, uint64_t(count.bytes_high) << 32 | count.bytes });
+	}
+}
+
 void Sdfgi::after_frame() {
 	Impl &i = *impl;
+	i.stats.fetches.clear();
+	if (i.world != nullptr && i.settings.count_fetches) {
+		i.read_fetches();
+	}
 	if (!i.checks_light || i.world == nullptr) {
 		return;
 	}
@@ -290,6 +318,7 @@ void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
 	const auto gather = [&](const char *p_name, Shader p_shader) {
 		ComputePass pass = r_recorder.compute(p_name, p_shader);
 		bind_gi_sampling(pass, impl->pass_inputs());
+		bind_fetch_counts(pass, impl->pass_inputs());
 		pass.read(GATHER_DEPTH, p_inputs.depth).read(GATHER_NORMAL_ROUGHNESS, p_inputs.normal_roughness).write(GATHER_IRRADIANCE, p_inputs.irradiance).write(GATHER_RADIANCE, p_inputs.radiance).read_write(GATHER_RAY_PIXELS, impl->ray_pixels).constants(constants);
 		return pass;
 	};

@@ -4,10 +4,24 @@
 #define SDFGI_IO_H
 #include "servers/rendering/device/shader_interop.h"
 
-#define PROBE_RADIANCE_TEXELS 8 // an axis of a probe's octahedral radiance
-#define PROBE_IRRADIANCE_TEXELS 6 // an axis of a probe's octahedral irradiance, without its border
-#define PROBE_BORDERED_TEXELS 8 // … with it; both maps are stored with one texel of border around: radiance 10
-#define PROBE_RADIANCE_BORDERED_TEXELS 10
+#define PROBE_BORDER_TEXELS 2 // an axis: a probe's two octahedral maps are stored with one texel around
+
+// Specialisation constants of filter_probes
+#define PROBE_RADIANCE_TEXELS_ID 1
+#define PROBE_IRRADIANCE_TEXELS_ID 2
+#define PROBE_FILTER_LANES_ID 3
+
+// Passes whose fetches are counted
+#define FETCHES_TRACE_RECORDS 0u
+#define FETCHES_LIGHT_LAMPS 1u
+#define FETCHES_LIGHT_RECORDS 2u
+#define FETCHES_TRACE_PROBES 3u
+#define FETCHES_TRACE_FAR_PROBES 4u
+#define FETCHES_FILTER_PROBES 5u
+#define FETCHES_FILTER_FAR_PROBES 6u
+#define FETCHES_GATHER_GI 7u
+#define FETCHES_GATHER_RAYS 8u
+#define FETCHES_PASSES 9u
 
 // trace_records, light_lamps, light_records
 #define RECORD_RAYS_COUNTS 20
@@ -38,7 +52,7 @@
 
 // Probes, wherever they are read
 #define GI_PROBE_PARAMS 9 // uniform ProbeParams
-#define GI_PROBE_IRRADIANCE 30 // texture2D: a tile of PROBE_BORDERED_TEXELS a probe
+#define GI_PROBE_IRRADIANCE 30 // texture2D: a tile of ProbeParams::irradiance_texels + PROBE_BORDER_TEXELS a probe
 #define GI_PROBE_RADIANCE 31
 #define GI_PROBE_OFFSETS 32 // ProbePlace a probe
 #define GI_PROBE_SAMPLER 33
@@ -74,6 +88,8 @@ struct ProbeParams {
 	uint probes; // an axis
 	uint spacing_cells;
 	uint rays; // a probe and frame
+	uint radiance_texels; // an axis of a probe's octahedral radiance
+	uint irradiance_texels;
 	uint frame; // since the probes' means started anew
 	uint running_frame; // never starts anew: what is due in a frame goes by it, so that constant change starves no texel
 	float normal_bias; // sub-voxels
@@ -102,7 +118,7 @@ struct SdfgiStatistics {
 INTEROP_END
 INTEROP_SIZE(RecordRaysConstants, 20)
 INTEROP_SIZE(LightRecordsConstants, 24)
-INTEROP_SIZE(ProbeParams, 52)
+INTEROP_SIZE(ProbeParams, 60)
 INTEROP_SIZE(ProbeListHeader, 28)
 INTEROP_SIZE(GatherConstants, 88)
 #endif

@@ -32,6 +32,7 @@ ComputePass record_pass(PassRecorder &r_recorder, const char *p_name, Shader p_s
 	ComputePass pass = r_recorder.compute(p_name, p_shader);
 	p_in.world.bind_light(pass, p_in.sky);
 	pass.read(RECORD_RAYS_COUNTS, p_in.world.counts_handle()).read_write(RECORD_RAYS_STATISTICS, p_in.statistics);
+	bind_fetch_counts(pass, p_in);
 	return pass;
 }
 
@@ -68,6 +69,7 @@ void trace_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_
 	ComputePass pass = r_recorder.compute(p_far ? "sdfgi.trace_far_probes" : "sdfgi.trace_probes", Shader::TRACE_PROBES);
 	p_in.world.bind_light(pass, p_in.sky);
 	pass.uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_OFFSETS, p_in.probe_places).read(PROBE_LIST, p_in.probe_list).read_write(OUT_1, p_in.radiance_atlas).read_write(OUT_2, p_in.statistics).constants(constants);
+	bind_fetch_counts(pass, p_in);
 	if (p_far) {
 		pass.dispatch_threads(p_in.far_slice() * p_in.probe_rays);
 	} else {
@@ -79,6 +81,8 @@ void filter_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32
 	const shader::TraceProbesConstants constants = { .cascade = p_cascade, .far = p_far ? 1u : 0u };
 	ComputePass pass = r_recorder.compute(p_far ? "sdfgi.filter_far_probes" : "sdfgi.filter_probes", Shader::FILTER_PROBES);
 	pass.uniform(WORLD_PARAMS, p_in.world.params_handle()).uniform(GI_PROBE_PARAMS, p_in.probe_params).read(GI_PROBE_OFFSETS, p_in.probe_places).read(PROBE_LIST, p_in.probe_list).read_write(OUT_0, p_in.radiance_atlas).write(OUT_1, p_in.irradiance_atlas).constants(constants);
+	pass.specialize(PROBE_RADIANCE_TEXELS_ID, p_in.probe_radiance_texels).specialize(PROBE_IRRADIANCE_TEXELS_ID, p_in.probe_irradiance_texels).specialize(PROBE_FILTER_LANES_ID, p_in.probe_irradiance_texels + PROBE_BORDER_TEXELS);
+	bind_fetch_counts(pass, p_in);
 	if (p_far) {
 		pass.dispatch_groups(p_in.far_slice());
 	} else {

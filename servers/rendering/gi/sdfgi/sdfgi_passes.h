@@ -22,11 +22,23 @@ struct SdfgiPassInputs {
 	BufferHandle statistics;
 	BufferHandle ray_cache; // a word a ray
 	uint32_t probes_in_cascade = 0;
-	uint32_t probe_rays = 0;
+	BufferHandle fetch_counts; // FetchCounts a pass
+	bool counts_fetches = false;
+	uint32_t probe_rays = 0; // of a probe in a frame
+	uint32_t probe_radiance_texels = 0; // an axis
+	uint32_t probe_irradiance_texels = 0;
 
 	uint32_t probe_list_words(uint32_t p_cascade) const { return p_cascade * (PROBE_LIST_HEADER_WORDS + probes_in_cascade); }
 	uint32_t far_slice() const { return (probes_in_cascade + PROBE_FAR_PERIOD - 1) / PROBE_FAR_PERIOD; }
 };
+
+// Binds the fetches' counts for a pass that includes fetch_counts_inc.glsl.
+inline void bind_fetch_counts(ComputePass &r_pass, const SdfgiPassInputs &p_in) {
+	r_pass.read_write(WORLD_FETCH_COUNTS, p_in.fetch_counts);
+	if (p_in.counts_fetches) {
+		r_pass.specialize(COUNT_FETCHES_ID, 1);
+	}
+}
 
 void place_probes(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, uint32_t p_cascade);
 void trace_records(PassRecorder &r_recorder, const SdfgiPassInputs &p_in, const shader::RecordRaysConstants &p_constants);

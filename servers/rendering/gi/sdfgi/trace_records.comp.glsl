@@ -25,13 +25,14 @@ uint met_by_ray(WorldHit hit, vec3 direction, float way_m, uint seed, out vec3 e
 		return RAY_MET_SKY;
 	}
 	uint met = pick_record(hit, direction, seed);
-	if (met != RAY_MET_NOTHING && world_records[met].emission != 0u && (emitter_count == 0u || way_m < near_emitters_m())) {
-		emission = visible_emission(world_records[met], world_cells[hit.cell]);
+	if (met != RAY_MET_NOTHING && stored_record(met).emission != 0u && (emitter_count == 0u || way_m < near_emitters_m())) {
+		emission = visible_emission(stored_record(met), stored_cell(hit.cell));
 	}
 	return met;
 }
 
-vec3 light_of_lane(WorldRecord record, RayCache cache, uint i, uint lane) {
+vec3 light_of_lane(WorldRecord record, uint i, uint lane) {
+	RayCache cache = ray_cache_of(constants.cascade, constants.cache_capacity, constants.turns);
 	uint seed = record_seed(record);
 	uint sample_index = constants.turn * RECORD_LANES + lane;
 	LaneOrigin origin = lane_origin(record, seed, sample_index);
@@ -69,25 +70,5 @@ vec3 light_of_lane(WorldRecord record, RayCache cache, uint i, uint lane) {
 }
 
 void main() {
-	uint lane = gl_LocalInvocationIndex % RECORD_LANES;
-	uint count = records_of(constants.cascade);
-	RayCache cache = ray_cache_of(constants.cascade, constants.cache_capacity, constants.turns);
-	if (gl_LocalInvocationIndex == 0u) {
-		group_rays = 0u;
-	}
-	barrier();
-	for (uint group = gl_WorkGroupID.x; group < (count + 7u) / 8u; group += gl_NumWorkGroups.x) {
-		uint i = group * 8u + gl_LocalInvocationIndex / RECORD_LANES;
-		uint index = record_base(constants.cascade) + min(i, count - 1u);
-		WorldRecord record = world_records[index];
-		bool active_record = i < count && record_is_active(record);
-		vec3 light = vec3(0.0);
-		if (active_record) {
-			light = light_of_lane(record, cache, i, lane);
-		}
-		add_to_state(index * 2u, light, active_record);
-	}
-	if (gl_LocalInvocationIndex == 0u) {
-		atomicAdd(statistics.rays, group_rays);
-	}
+	trace_lanes(0u, FETCHES_TRACE_RECORDS);
 }

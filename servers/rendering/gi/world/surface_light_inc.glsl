@@ -8,6 +8,14 @@
 layout(set = 0, binding = WORLD_BINDING(WORLD_RECORD_LIGHT), scalar) readonly buffer WorldRecordLightBlock {
 	uvec4 world_record_light[]; // xy: reflected, zw: falls on it, but for lamps'
 };
+vec3 light_from_record(uint index) {
+	count_fetch(8u);
+	return vec4_from_half4(world_record_light[index].xy).rgb;
+}
+vec3 light_onto_record(uint index) {
+	count_fetch(8u);
+	return vec4_from_half4(world_record_light[index].zw).rgb;
+}
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY)) uniform texture2D world_sky;
 layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler world_sky_sampler;
 
@@ -16,6 +24,7 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler worl
 #define WORLD_CELL_ON_WAY load_cell
 #endif
 #define SHORT_WAY_MAX_STEPS 48u
+#define TEXEL_LOOKUP_BYTES 32u // bilinear, of RGBA16F
 // What a ray met, instead of a record's index.
 #define RAY_MET_NOTHING 0xFFFFFFFFu
 #define RAY_MET_SKY 0xFFFFFFFEu
@@ -65,6 +74,7 @@ bool cell_is_split(uint faces) {
 
 vec3 world_sky_radiance(vec3 direction) {
 	vec2 uv = octahedral_from_direction(direction) * 0.5 + 0.5;
+	count_fetch(TEXEL_LOOKUP_BYTES);
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }
 
@@ -117,7 +127,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return vec3(0.0);
 	}
-	WorldCell cell = world_cells[hit.cell];
+	WorldCell cell = stored_cell(hit.cell);
 	uint faces = cell.records & 63u;
 	bool several = has_several(faces);
 	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
@@ -125,10 +135,10 @@ vec3 hit_radiance(WorldHit hit, vec3 direction) {
 	float weight_sum = 0.0;
 	uint end = record_end(hit.cascade);
 	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
-		WorldRecord record = world_records[index];
+		WorldRecord record = stored_record(index);
 		float weight = record_weight(hit, direction, record, several, free_m);
 		if (weight > 0.0) {
-			sum += weight * (vec4_from_half4(world_record_light[index].xy).rgb + visible_emission(record, cell));
+			sum += weight * (light_from_record(index) + visible_emission(record, cell));
 			weight_sum += weight;
 		}
 	}
@@ -141,14 +151,14 @@ uint pick_record(WorldHit hit, vec3 direction, uint seed) {
 	if (hit.cell >= WORLD_LOST_CELL) {
 		return picked;
 	}
-	WorldCell cell = world_cells[hit.cell];
+	WorldCell cell = stored_cell(hit.cell);
 	uint faces = cell.records & 63u;
 	bool several = has_several(faces);
 	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
 	float weight_sum = 0.0;
 	uint end = record_end(hit.cascade);
 	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
-		float weight = record_weight(hit, direction, world_records[index], several, free_m);
+		float weight = record_weight(hit, direction, stored_record(index), several, free_m);
 		weight_sum += weight;
 		if (weight > 0.0 && unit_float(hash_uint(seed + index)) * weight_sum < weight) {
 			picked = index;

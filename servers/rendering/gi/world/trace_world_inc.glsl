@@ -14,6 +14,10 @@
 layout(set = 0, binding = WORLD_BINDING(WORLD_RECORDS), scalar) readonly buffer WorldRecordsBlock {
 	WorldRecord world_records[];
 };
+WorldRecord stored_record(uint index) {
+	count_fetch(24u);
+	return world_records[index];
+}
 
 #define TRACE_MAX_STEPS 768
 
@@ -48,7 +52,7 @@ bool is_beyond_edge(uint cascade, uint packed_records, WorldRecord record, vec3 
 	uint others = faces & ~(1u << record_face(record)) & ~record_spill(record);
 	for (; others != 0u; others &= others - 1u) {
 		uint face = uint(findLSB(others));
-		WorldRecord other = world_records[cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)))];
+		WorldRecord other = stored_record(cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u))));
 		if (dot((point - record_position_in_cell(other)) * world.cascades[cascade].cell_m, record_normal(other)) > tolerance_m) {
 			return true;
 		}
@@ -63,7 +67,7 @@ bool crosses_surface(uint cascade, uint packed_records, vec3 a, vec3 b) {
 	bool behind_all = true;
 	uint index = cell_first_record(packed_records);
 	for (uint faces = packed_records & 63u; faces != 0u; faces &= faces - 1u, index++) {
-		WorldRecord record = world_records[index];
+		WorldRecord record = stored_record(index);
 		vec3 normal = record_normal(record) * cell_m;
 		vec3 center = record_position_in_cell(record);
 		float at_a = dot(a - center, normal);
@@ -222,7 +226,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			uint index = find_cell(cascade, storage_from_world_cell(walk.at + c.origin_cells));
 			if (index < WORLD_LOST_CELL) {
 				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
-				float way = trace_sub_voxels(cascade, world_cells[index], entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+				float way = trace_sub_voxels(cascade, stored_cell(index), entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
 				result.hit = way >= 0.0;
 				result.t_m = t + way;
 			} else if (index == WORLD_LOST_CELL) {

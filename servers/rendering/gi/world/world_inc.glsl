@@ -10,6 +10,17 @@
 #define WORLD_BINDING(m_index) m_index
 #endif
 
+// Loads from buffers and textures are counted in passes that are specialised for it, a structure or a bilinear lookup as one.
+layout(constant_id = COUNT_FETCHES_ID) const uint COUNT_FETCHES = 0u;
+uint fetch_count = 0u;
+uint fetch_bytes = 0u;
+void count_fetch(uint bytes) {
+	if (COUNT_FETCHES != 0u) {
+		fetch_count++;
+		fetch_bytes += bytes;
+	}
+}
+
 layout(set = 0, binding = WORLD_BINDING(WORLD_PARAMS), scalar) uniform WorldParamsBlock {
 	GiWorldParams world;
 };

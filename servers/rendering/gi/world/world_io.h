@@ -26,6 +26,9 @@
 #define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: radiance that it reflects of all light; irradiance / pi of all light but lamps'
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
+#define WORLD_FETCH_COUNTS 35 // FetchCounts a pass (fetch_counts_inc.glsl)
+
+#define COUNT_FETCHES_ID 0 // specialisation constant
 
 // A cell is flat when no surface in it is further than this from its record's plane.
 #define WORLD_FLAT_SUB_VOXELS 0.08
@@ -49,6 +52,13 @@
 #define WORLD_TOUCH_SUB_VOXELS 0.00390625
 
 INTEROP_BEGIN
+// Of one pass in a frame, 64 bits each.
+struct FetchCounts {
+	uint fetches;
+	uint fetches_high;
+	uint bytes;
+	uint bytes_high;
+};
 struct GiCascade {
 	ivec3 origin_cells; // world-fixed coordinates of the lowest cell
 	vec3 cell_m; // size of a cell; y is smaller by the y scale

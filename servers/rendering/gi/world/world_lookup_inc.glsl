@@ -24,12 +24,19 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer Worl
 uint find_cell(uint cascade, uvec3 storage) {
 	uint brick = brick_of_cell(cascade, storage);
 	uvec2 mask = world_occupancy[brick];
+	count_fetch(8u);
 	uint bit = bit_of_cell(storage);
 	if (!bit_is_set(mask, bit)) {
 		return WORLD_NO_CELL;
 	}
 	uint index = world_brick_cell_base[brick] + bits_below(mask, bit);
+	count_fetch(4u);
 	return index < cell_end(cascade) ? index : WORLD_LOST_CELL;
+}
+
+WorldCell stored_cell(uint index) {
+	count_fetch(12u);
+	return world_cells[index];
 }
 
 // The content of a world-fixed cell: no bits where nothing is stored, all bits and no records where it has no memory.
@@ -38,13 +45,14 @@ WorldCell load_cell(uint cascade, ivec3 cell) {
 	if (index >= WORLD_LOST_CELL) {
 		return WorldCell(uvec2(index == WORLD_NO_CELL ? 0u : 0xFFFFFFFFu), 0u);
 	}
-	return world_cells[index];
+	return stored_cell(index);
 }
 
 // Distance in cells to the nearest stored cell's centre, rounded down to a sixteenth.
 float sdf_cells(uint cascade, uvec3 storage) {
 	uint bit = bit_of_cell(storage);
 	uint word = world_sdf[brick_of_cell(cascade, storage) * 16u + (bit >> 2)];
+	count_fetch(4u);
 	return float((word >> ((bit & 3u) * 8u)) & 255u) / WORLD_SDF_SCALE;
 }
 
@@ -59,7 +67,7 @@ bool sub_voxel_is_solid(uint cascade, vec3 position_m) {
 		return true;
 	}
 	uvec3 s = uvec3(clamp(floor((p - vec3(cell)) * float(WORLD_SUB_VOXELS)), vec3(0.0), vec3(3.0)));
-	return bit_is_set(world_cells[index].bits, s.x + 4u * s.y + 16u * s.z);
+	return bit_is_set(stored_cell(index).bits, s.x + 4u * s.y + 16u * s.z);
 }
 
 #endif
