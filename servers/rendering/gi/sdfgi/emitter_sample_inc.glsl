@@ -74,7 +74,7 @@ EmitterSample sample_emitter(vec3 from_m, vec3 normal, float pick, vec2 u) {
 	result.ray.t_max_m = distance_m;
 	float cosines = max(dot(normal, result.ray.direction), 0.0) * max(-dot(record_normal(record), result.ray.direction), 0.0);
 	// Emitters nearer than this are left to the gather rays: there a record is no point of light.
-	float form = distance_m < near_emitters_m() ? 0.0 : cosines * record.area_m2 / (PI * distance_squared);
+	float form = distance_m < near_emitters_m() ? 0.0 : cosines * record_emitting_area_m2(record) / (PI * distance_squared);
 	result.ray.light = color_from_rgb9e5(record.emission) * form / max(emitter.share, 1e-9);
 	result.weight = dot(result.ray.light, vec3(1.0));
 	return result;

@@ -18,14 +18,17 @@ layout(set = 0, binding = WORLD_CELLS, scalar) readonly buffer CellsBlock {
 	WorldCell cells[];
 };
 layout(set = 0, binding = ACCUMULATE_RECORDS_WORDS, scalar) buffer AccumulatorsBlock {
-	uint accumulator_words[]; // RecordAccumulator as 13 words, from the cascade's first record
+	uint accumulator_words[]; // RecordAccumulator as 14 words, from the cascade's first record
 };
 
-void add_to_record(uint record, float area, vec3 albedo, vec3 emission, vec3 area_normal, vec3 position) {
-	uint base = (record - record_base(constants.cascade)) * 13u;
+// own_area: without what neighbouring cells have too.
+void add_to_record(uint record, float area, float own_area, vec3 albedo, vec3 emission, vec3 area_normal, vec3 position) {
+	uint base = (record - record_base(constants.cascade)) * 14u;
 	float scaled = area * WORLD_FIXED_AREA;
 	atomicAdd(accumulator_words[base], max(1u, uint(scaled + 0.5)));
-	vec3 emission_sum = min(emission, vec3(60000.0)) * area * WORLD_FIXED_EMISSION;
+	vec3 fixed_emission = min(emission, vec3(60000.0)) * WORLD_FIXED_EMISSION;
+	vec3 emission_sum = fixed_emission * area;
+	atomicAdd(accumulator_words[base + 13u], uint(dot(fixed_emission, vec3(1.0 / 3.0)) * own_area + 0.5));
 	for (uint i = 0u; i < 3u; i++) {
 		atomicAdd(accumulator_words[base + 1u + i], uint(clamp(albedo[i], 0.0, 1.0) * scaled + 0.5));
 		atomicAdd(accumulator_words[base + 4u + i], uint(emission_sum[i] + 0.5));
@@ -41,14 +44,12 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	if (index >= cell_end(constants.cascade)) {
 		return;
 	}
-	Polygon polygon = clip_triangle(triangle, cell);
-	vec3 area_vector = vec3(0.0);
+	Polygon polygon = clip_triangle(triangle, cell, CELL_TOUCH);
 	vec3 center = vec3(0.0);
 	float area_sum = 0.0;
 	for (uint i = 2u; i < polygon.count; i++) {
 		vec3 part = 0.5 * cross(polygon.v[i - 1u] - polygon.v[0], polygon.v[i] - polygon.v[0]);
 		float part_area = length(part);
-		area_vector += part;
 		center += part_area * (polygon.v[0] + polygon.v[i - 1u] + polygon.v[i]) / 3.0;
 		area_sum += part_area;
 	}
@@ -64,6 +65,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	}
 	vec3 emission = triangle_emission(triangle, material, w);
 	vec3 front = front_normal(triangle, material);
+	float own_area = emission != vec3(0.0) ? polygon_area(clip_triangle(triangle, cell, 0.0)) : 0.0;
 	vec3 area_normal = normalize(front) * area_sum;
 	uint face = face_from_normal(world_normal_from_cells(constants.cascade, front));
 	uint packed_records = cells[index].records;
@@ -71,7 +73,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	for (uint side = 0u; side < 2u; side++) {
 		uint record = cell_first_record(packed_records) + uint(bitCount(mask & ((1u << face) - 1u)));
 		if ((mask & (1u << face)) != 0u && record < record_end(constants.cascade)) {
-			add_to_record(record, area_sum, triangle_reflectance(material, albedo), emission, area_normal, center);
+			add_to_record(record, area_sum, own_area, triangle_reflectance(material, albedo), emission, area_normal, center);
 		}
 		if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) == 0u) {
 			return;

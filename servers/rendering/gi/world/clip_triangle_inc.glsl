@@ -10,7 +10,8 @@ struct Polygon {
 	uint count;
 };
 
-Polygon cut(Polygon polygon, uint axis, float limit, float side) {
+// Keeps what lies on `side` (1: above, -1: below) of the limit, and with `closed` what lies on it.
+Polygon cut(Polygon polygon, uint axis, float limit, float side, bool closed) {
 	Polygon result;
 	result.count = 0u;
 	for (uint i = 0u; i < polygon.count; i++) {
@@ -18,28 +19,38 @@ Polygon cut(Polygon polygon, uint axis, float limit, float side) {
 		vec3 b = polygon.v[i + 1u == polygon.count ? 0u : i + 1u];
 		float da = (a[axis] - limit) * side;
 		float db = (b[axis] - limit) * side;
-		if (da >= 0.0 && result.count < 9u) {
+		bool keeps_a = da > 0.0 || (closed && da == 0.0);
+		bool keeps_b = db > 0.0 || (closed && db == 0.0);
+		if (keeps_a && result.count < 9u) {
 			result.v[result.count++] = a;
 		}
-		if ((da >= 0.0) != (db >= 0.0) && result.count < 9u) {
+		if (keeps_a != keeps_b && result.count < 9u) {
 			result.v[result.count++] = mix(a, b, da / (da - db));
 		}
 	}
 	return result;
 }
 
-// The part of the triangle in a cell and its touch distance, cell-local.
-Polygon clip_triangle(VoxelTriangle triangle, ivec3 cell) {
+// The part of the triangle in a cell and `margin` around it, cell-local. Without a margin each point is in one cell.
+Polygon clip_triangle(VoxelTriangle triangle, ivec3 cell, float margin) {
 	Polygon polygon;
 	for (uint i = 0u; i < 3u; i++) {
 		polygon.v[i] = triangle.v[i] - vec3(cell);
 	}
 	polygon.count = 3u;
 	for (uint axis = 0u; axis < 3u && polygon.count > 0u; axis++) {
-		polygon = cut(polygon, axis, -CELL_TOUCH, 1.0);
-		polygon = cut(polygon, axis, 1.0 + CELL_TOUCH, -1.0);
+		polygon = cut(polygon, axis, -margin, 1.0, true);
+		polygon = cut(polygon, axis, 1.0 + margin, -1.0, margin > 0.0);
 	}
 	return polygon;
+}
+
+float polygon_area(Polygon polygon) {
+	float area = 0.0;
+	for (uint i = 2u; i < polygon.count; i++) {
+		area += 0.5 * length(cross(polygon.v[i - 1u] - polygon.v[0], polygon.v[i] - polygon.v[0]));
+	}
+	return area;
 }
 
 #endif

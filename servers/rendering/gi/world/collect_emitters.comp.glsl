@@ -28,7 +28,7 @@ float emitter_power(WorldRecord record) {
 	if (record.emission == 0u || !record_has_start(record) || cell_in_finer(record_cascade(record), record_world_cell(record), 0)) {
 		return 0.0;
 	}
-	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * record.area_m2;
+	return dot(color_from_rgb9e5(record.emission), vec3(1.0)) * record_emitting_area_m2(record);
 }
 
 shared float group_power[256];

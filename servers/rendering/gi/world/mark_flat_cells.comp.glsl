@@ -47,7 +47,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	uint spill = 0u;
 	if (is_flat) {
 		float limit_m = WORLD_FLAT_SUB_VOXELS * world.cascades[constants.cascade].cell_m.y / float(WORLD_SUB_VOXELS);
-		Polygon polygon = clip_triangle(triangle, cell);
+		Polygon polygon = clip_triangle(triangle, cell, CELL_TOUCH);
 		uint other = cell_first_record(packed_records);
 		for (uint left = faces; left != 0u; left &= left - 1u, other++) {
 			vec3 normal;

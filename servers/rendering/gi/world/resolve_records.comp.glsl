@@ -49,7 +49,9 @@ void main() {
 		record.normal = n.x | (n.y << 13);
 		record.albedo = unorm111110_from_color(vec3(sums.albedo) / max(float(sums.area), 1.0));
 		record.emission = rgb9e5_from_color(vec3(sums.emission) / WORLD_FIXED_EMISSION / area);
-		record.area_m2 = cascade.cell_m.x * cascade.cell_m.y * cascade.cell_m.z * length(area_vector / cascade.cell_m);
+		float area_m2 = cascade.cell_m.x * cascade.cell_m.y * cascade.cell_m.z * length(area_vector / cascade.cell_m);
+		float own_share = 3.0 * float(sums.own_emission) / max(float(sums.emission.x) + float(sums.emission.y) + float(sums.emission.z), 1.0);
+		record.area = (floatBitsToUint(area_m2) & ~255u) | uint(clamp(own_share, 0.0, 1.0) * 255.0 + 0.5);
 		records[index] = record;
 		record_light[index] = uvec4(0u);
 	}

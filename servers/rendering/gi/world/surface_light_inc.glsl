@@ -99,7 +99,7 @@ vec3 visible_emission(WorldRecord record, WorldCell cell) {
 	vec3 size = world.cascades[record_cascade(record)].cell_m;
 	float column_m2 = size[(axis + 1u) % 3u] * size[(axis + 2u) % 3u] / 16.0;
 	float seen_m2 = column_m2 * float(max(bitCount(columns_of_bits(cell.bits, axis)), 1));
-	return emission * (record.area_m2 * abs(record_normal(record)[axis]) / seen_m2);
+	return emission * (record_area_m2(record) * abs(record_normal(record)[axis]) / seen_m2);
 }
 
 // How much a record has to do with a hit: 0 where it doesn't face the ray, or where no free way leads from `free_m` to it (asked when the

@@ -114,6 +114,13 @@ vec3 record_position_in_cell(WorldRecord record) {
 vec3 record_position_m(WorldRecord record) {
 	return (vec3(record_world_cell(record)) + record_position_in_cell(record)) * world.cascades[record_cascade(record)].cell_m;
 }
+float record_area_m2(WorldRecord record) {
+	return uintBitsToFloat(record.area & ~255u);
+}
+// Surfaces on the border of two cells are stored in both; as light sources they count once.
+float record_emitting_area_m2(WorldRecord record) {
+	return record_area_m2(record) * float(record.area & 255u) / 255.0;
+}
 vec3 record_normal(WorldRecord record) {
 	// Sign-extended by the shifts.
 	ivec2 p = ivec2(int(record.normal << 19) >> 19, int(record.normal << 6) >> 19);

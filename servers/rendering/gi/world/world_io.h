@@ -82,7 +82,7 @@ struct WorldRecord {
 	uint albedo; // 11:11:10 unorm
 	uint emission; // RGB9E5, mean over the surface
 	uint cell; // cascade << 27 | face << 24 | storage coordinates z << 16 | y << 8 | x
-	float area_m2; // of the surface, seen along its normal
+	uint area; // m^2 of the surface, seen along its normal: a float but for its last 8 bits, which are the share of its emission that no other cell has too
 };
 // Per-record sums while a cascade is voxelised. Integers, so that the order of triangles doesn't matter.
 struct RecordAccumulator {
@@ -91,6 +91,7 @@ struct RecordAccumulator {
 	uvec3 emission;
 	ivec3 normal;
 	uvec3 position;
+	uint own_emission; // sum of the channels' mean, of what no other cell counts
 };
 // A cascade's counts, written by the allocation passes. Wanted, so they may exceed the capacity.
 struct CascadeCounts {
@@ -134,5 +135,5 @@ INTEROP_SIZE(GiWorldParams, 216)
 INTEROP_SIZE(NearBrickHeader, 16)
 INTEROP_SIZE(WorldCell, 12)
 INTEROP_SIZE(WorldRecord, 24)
-INTEROP_SIZE(RecordAccumulator, 52)
+INTEROP_SIZE(RecordAccumulator, 56)
 #endif
