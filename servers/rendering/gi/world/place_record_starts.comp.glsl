@@ -26,17 +26,27 @@ layout(push_constant, scalar) uniform PlacePush {
 	VoxelizeConstants constants;
 };
 
-// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels.
-uint find_start(uint cascade, vec3 position_m, vec3 normal) {
+#define MAX_START 29u
+
+// How many steps along the normal are free, by the planes of flat cells: less than MAX_START where another surface faces this one.
+uint free_steps(uint cascade, vec3 position_m, vec3 normal, float step_m) {
+	WorldHit hit = trace_world(position_m + normal * step_m, normal, float(MAX_START - 1u) * step_m, cascade);
+	return hit.hit && hit.t_m > 0.25 * step_m ? 1u + uint(hit.t_m / step_m) : MAX_START;
+}
+
+// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels. In a gap without a free sub-voxel, at the
+// surface of a flat cell, half way through.
+uint find_start(uint cascade, vec3 position_m, vec3 normal, bool is_flat) {
 	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
-	for (uint i = 3u; i < 29u; i++) {
+	uint steps = is_flat ? free_steps(cascade, position_m, normal, step_m) : MAX_START;
+	for (uint i = 3u; i < MAX_START && i <= steps; i++) {
 		if (!sub_voxel_is_solid(cascade, position_m + normal * (float(i) * step_m))) {
 			// A little further, so that the point isn't on the solid's face; still in the sub-voxel or the next one.
 			uint further = i + 1u;
 			return sub_voxel_is_solid(cascade, position_m + normal * (float(further) * step_m)) ? i : further;
 		}
 	}
-	return 0u;
+	return steps < MAX_START ? (steps + 1u) / 2u : 0u;
 }
 
 // How many of the test rays from the start end at the back of a surface.
@@ -83,8 +93,9 @@ bool move_to_column(inout WorldRecord record, uint column) {
 
 uint placed(uint cascade, WorldRecord record) {
 	vec3 normal = record_normal(record);
-	uint best = record.position | (find_start(cascade, record_position_m(record), normal) << 27);
 	WorldCell cell = world_cells[find_cell(cascade, storage_from_world_cell(record_world_cell(record)))];
+	bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
+	uint best = record.position | (find_start(cascade, record_position_m(record), normal, is_flat) << 27);
 	uint faces = cell.records & 63u;
 	if ((faces & (faces - 1u)) == 0u) {
 		return best;
@@ -99,7 +110,7 @@ uint placed(uint cascade, WorldRecord record) {
 		if (((columns >> column) & 1u) == 0u || !move_to_column(at, column)) {
 			continue;
 		}
-		uint start = find_start(cascade, record_position_m(at), normal);
+		uint start = find_start(cascade, record_position_m(at), normal, is_flat);
 		at.position |= start << 27;
 		uint backs = start != 0u ? backs_seen(cascade, at) : TEST_RAYS + 1u;
 		if (backs < fewest) {
