@@ -63,7 +63,8 @@ bool is_beyond_edge(uint cascade, uint packed_records, WorldRecord record, vec3 
 // Does the stretch from `a` to `b` (cell-local, in cells) cross a surface of a flat cell?
 bool crosses_surface(uint cascade, uint packed_records, vec3 a, vec3 b) {
 	vec3 cell_m = world.cascades[cascade].cell_m;
-	float tolerance_m = 2.0 * WORLD_FLAT_SUB_VOXELS * cell_m.y / float(WORLD_SUB_VOXELS);
+	// No surface of the cell is further off its plane than the limit.
+	float tolerance_m = 1.05 * WORLD_FLAT_SUB_VOXELS * cell_m.y / float(WORLD_SUB_VOXELS);
 	bool behind_all = true;
 	uint index = cell_first_record(packed_records);
 	for (uint faces = packed_records & 63u; faces != 0u; faces &= faces - 1u, index++) {

@@ -31,7 +31,7 @@
 #define COUNT_FETCHES_ID 0 // specialisation constant
 
 // A cell is flat when no surface in it is further than this from its record's plane.
-#define WORLD_FLAT_SUB_VOXELS 0.08
+#define WORLD_FLAT_SUB_VOXELS 0.04
 #define WORLD_CELL_FLAT 0x80000000u
 
 // Where a draw that samples GI finds these bindings and the probes': this much higher (transparent_inc.glsl).
