@@ -158,7 +158,7 @@ Status write_quality(const BenchOptions &p_options, const std::vector<QualityRow
 		}
 	}
 	std::fputs(table_text(table).c_str(), stdout);
-	std::printf("%s\n", conditions_line(p_conditions).c_str());
+	std::printf("±: 95 %% over the truth's noise; ours, and what a light that has not settled (+) lacks, is part of nrmse\n%s\n", conditions_line(p_conditions).c_str());
 	if (const Status status = write_bench_json(p_options, "quality", json); !status) {
 		return status;
 	}

@@ -22,7 +22,7 @@ namespace {
 ResponsePreset response_preset(const BenchOptions &p_options, const DeviceInfo &p_device) {
 	ResponsePreset preset;
 	if (p_options.preset.empty() ? is_cpu_device(p_device) : p_options.preset == "cpu") {
-		preset = { .width = 128, .height = 72, .grid = 64, .frames_to_converge = 4, .settle_frames = 108, .frames = 40 };
+		preset = { .width = 128, .height = 72, .grid = 64, .frames_to_converge = 4, .settle_frames = 108, .frames = 64 };
 	}
 	preset.frames = p_options.frames != 0 ? p_options.frames : preset.frames;
 	preset.grid = p_options.grid != 0 ? p_options.grid : preset.grid;
@@ -184,7 +184,7 @@ Result<ResponseRow> measure_change(RenderingDevice &r_device, const BenchOptions
 	}
 	std::vector<MetricImage> pictures;
 	for (uint32_t i = 0; i < p_preset.frames; i++) {
-		scene.draw();
+		row.ended = scene.draw().stats.gi.converged;
 		pictures.push_back(scene.picture(ViewportBuffer::INDIRECT_DIFFUSE));
 	}
 	const std::vector<size_t> pixels = affected_pixels(before, pictures.back());

@@ -27,6 +27,7 @@ struct ResponseRow {
 	double affected = 0; // share of the pixels
 	std::vector<double> curve; // by frame: how far their luminance has moved to where it ends, on average
 	Response response;
+	bool ended = false; // the light had settled again in the last frame: that is where it ends
 	double rest_difference = 0; // largest between frames before the change
 	uint64_t rest_rays = 0;
 };
@@ -42,7 +43,7 @@ struct ResponseResult {
 	ScrollResult scroll;
 	bool repeats = false; // two runs on new devices gave the same bits
 
-	// Nothing moves where nothing changes; scenes that did not settle in time don't count.
+	// Where a scene settled nothing moves and no ray is traced; and some scene did.
 	bool rests() const;
 };
 

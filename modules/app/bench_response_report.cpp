@@ -14,6 +14,11 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+// Frames to a share of the change: "–" where nothing changed, with + where the last frame is not where the light ends.
+std::string frames_text(const ResponseRow &p_row, uint32_t p_frames) {
+	return p_row.response.after == 0.0 ? std::string("–") : std::to_string(p_frames) + (p_row.ended ? "" : "+");
+}
+
 ReportTable change_table(const ResponseResult &p_result) {
 	ReportTable table;
 	table.columns = { "change", "scene", "frames to 50 %", "90 %", "99 %", "overshoot", "change", "pixels", "settled after", "at rest: difference", "rays" };
@@ -21,7 +26,7 @@ ReportTable change_table(const ResponseResult &p_result) {
 		const Response &response = row.response;
 		const std::string settled = std::to_string(row.settle_frames) + (row.settled ? "" : "+");
 		const std::string rest = row.settled ? fmt::format("{:g}", row.rest_difference) : "–";
-		table.rows.push_back({ row.name, row.scene, std::to_string(response.frames_50), std::to_string(response.frames_90), std::to_string(response.frames_99), fmt::format("{:.1f} %", 100.0 * response.overshoot), fmt::format("{:.4g}", response.after),
+		table.rows.push_back({ row.name, row.scene, frames_text(row, response.frames_50), frames_text(row, response.frames_90), frames_text(row, response.frames_99), fmt::format("{:.1f} %", 100.0 * response.overshoot), fmt::format("{:.4g}", response.after),
 				fmt::format("{:.0f} %", 100.0 * row.affected), settled, rest, row.settled ? std::to_string(row.rest_rays) : "–" });
 	}
 	return table;
@@ -45,6 +50,7 @@ Json row_json(const ResponseRow &p_row) {
 		{ "scene", p_row.scene },
 		{ "settled", p_row.settled },
 		{ "settle_frames", p_row.settle_frames },
+		{ "settled_again", p_row.ended },
 		{ "frames_50", response.frames_50 },
 		{ "frames_90", response.frames_90 },
 		{ "frames_99", response.frames_99 },
@@ -84,7 +90,9 @@ ReportChart scroll_chart(const ScrollResult &p_scroll) {
 } // namespace
 
 bool ResponseResult::rests() const {
-	return std::all_of(rows.begin(), rows.end(), [](const ResponseRow &p_row) { return !p_row.settled || p_row.rest_difference == 0.0; });
+	const auto settled = [](const ResponseRow &p_row) { return p_row.settled; };
+	const auto rests = [](const ResponseRow &p_row) { return !p_row.settled || (p_row.rest_difference == 0.0 && p_row.rest_rays == 0); };
+	return std::any_of(rows.begin(), rows.end(), settled) && std::all_of(rows.begin(), rows.end(), rests);
 }
 
 Status write_response(const BenchOptions &p_options, const ResponseResult &p_result, const Json &p_conditions) {
@@ -98,8 +106,8 @@ Status write_response(const BenchOptions &p_options, const ResponseResult &p_res
 	const std::string repeats = fmt::format("Two runs on new devices, {} frames of rooms_1: {}.", REPEAT_FRAMES, p_result.repeats ? "the same bits" : "NOT the same bits");
 	HtmlReport html("Response: how fast light follows a change", line);
 	html.paragraph("How far the luminance of indirect light has moved to where it ends, averaged over the pixels that the change reaches. Frames: the first with the change is 1; the share is reached and kept. At rest: largest difference of a channel between "
-				   "frames before the change, and rays traced there. + : the light had not settled by then.");
-	std::printf("%s\n%s\n%s\n%s\n", table_text(change_table(p_result)).c_str(), table_text(scroll_table(p_result.scroll)).c_str(), repeats.c_str(), line.c_str());
+				   "frames before the change, and rays traced there. + : the light had not settled by then, so that the figure may be too low.");
+	std::printf("%s+: the light had not settled by then\n\n%s%s\n%s\n%s\n", table_text(change_table(p_result)).c_str(), table_text(scroll_table(p_result.scroll)).c_str(), p_result.scroll.settled ? "" : "The light had not settled before the step: the figures hold that too.\n", repeats.c_str(), line.c_str());
 	html.table(change_table(p_result));
 	html.chart(change_chart(p_result));
 	html.table(scroll_table(p_result.scroll));
