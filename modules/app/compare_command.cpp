@@ -4,6 +4,7 @@
 #include "modules/app/exit_codes.h"
 #include "modules/image/image_io.h"
 #include "modules/reference/metric_files.h"
+#include "servers/core/file_io.h"
 
 #include <nlohmann/json.hpp>
 
@@ -46,6 +47,11 @@ std::vector<double> figures(const LeakMetrics &p_metrics) {
 	return { p_metrics.mean, p_metrics.p999, p_metrics.max };
 }
 
+bool is_scene_referred(const std::string &p_path) {
+	const std::string extension = path_extension(p_path);
+	return extension == "exr" || extension == "hdr";
+}
+
 Status load(const CompareOptions &p_options, Comparison &r_comparison) {
 	Result<MetricImage> a = load_metric_image(p_options.image_a, p_options.layer_a);
 	if (!a) {
@@ -59,6 +65,10 @@ Status load(const CompareOptions &p_options, Comparison &r_comparison) {
 	r_comparison.b = b.take();
 	if (r_comparison.a.width != r_comparison.b.width || r_comparison.a.height != r_comparison.b.height) {
 		return make_error("{} is {}x{}, {} is {}x{}: only pictures of one size compare", p_options.image_a, r_comparison.a.width, r_comparison.a.height, p_options.image_b, r_comparison.b.width, r_comparison.b.height);
+	}
+	if (const bool a_is_scene = is_scene_referred(p_options.image_a); a_is_scene != is_scene_referred(p_options.image_b)) {
+		log_warning("{} is scene-referred, {} what a display shows, cut off at 1 and maybe tone-mapped: their light differs where the picture doesn't", a_is_scene ? p_options.image_a : p_options.image_b,
+				a_is_scene ? p_options.image_b : p_options.image_a);
 	}
 	return Ok();
 }

@@ -2,11 +2,13 @@
 #include "modules/app/compare_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/number_check.h"
 #include "modules/app/parse_error.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -48,8 +50,8 @@ static Result<MetricBound> parse_bound(const std::string &p_text) {
 	const std::string number = equals == std::string::npos ? "" : p_text.substr(equals + 1);
 	char *end = nullptr;
 	const double value = std::strtod(number.c_str(), &end);
-	if (number.empty() || *end != '\0' || !(value >= 0)) {
-		return make_error("--threshold '{}': expected {}=NUMBER, not below 0", p_text, name);
+	if (number.empty() || *end != '\0' || !(value >= 0) || !std::isfinite(value)) {
+		return make_error("--threshold '{}': expected {}=NUMBER, finite and not below 0", p_text, name);
 	}
 	return MetricBound{ name, value };
 }
@@ -79,7 +81,7 @@ Result<CompareOptions> parse_compare_options(const std::vector<std::string> &p_a
 	app.add_option("--leak", options.leak_masks, "light of A in this region, which should be dark; any number of times")->type_name("FILE")->expected(1)->multi_option_policy(all);
 	app.add_option("--threshold", bounds, "exit with 5 where a figure, in any region, is worse: " + metric_list())->type_name("FIGURE=VALUE")->expected(1)->multi_option_policy(all);
 	app.add_option("--diff", options.difference, "write a false-colour difference: red where A is brighter, blue where darker")->type_name("FILE.png");
-	app.add_option("--exposure", options.exposure, "factor before ssim, flip and --diff cut off at 1 [1]")->type_name("FACTOR")->check(CLI::PositiveNumber);
+	app.add_option("--exposure", options.exposure, "factor before ssim, flip and --diff cut off at 1 [1]")->type_name("FACTOR")->check(number_between(1e-6, 1e6));
 	app.add_flag("--json", options.json, "print the figures as JSON");
 	app.footer(footer());
 	try {

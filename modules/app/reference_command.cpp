@@ -9,6 +9,7 @@
 #include "modules/image/image_io.h"
 #include "modules/reference/path_tracer.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <unistd.h>
@@ -74,9 +75,17 @@ void print_summary(const ReferenceOptions &p_options, const PathTracerResult &p_
 		mean += p_result.radiance[i];
 		variance += p_result.variance[i];
 	}
-	const double count = double(p_result.radiance.size());
-	std::printf("%s: %ux%u, %u samples a pixel in %.1f s, %.2f million rays a second, mean %.6g +- %.2g%s\n", p_options.output.c_str(), p_result.width, p_result.height, p_result.spp, p_result.seconds,
-			double(p_result.rays) / p_result.seconds * 1e-6, mean / count, 1.96 * std::sqrt(variance) / count, interrupted ? " (interrupted)" : "");
+	const uint64_t pixels = uint64_t(p_result.width) * p_result.height;
+	const double count = 3.0 * double(std::max<uint64_t>(pixels - p_result.untraced_pixels, 1));
+	const std::string interval = p_result.spp < 2 ? " (interval unknown: too few samples)" : fmt::format(" +- {:.2g}", 1.96 * std::sqrt(variance) / count);
+	std::printf("%s: %ux%u, %u samples a pixel in %.1f s, %.2f million rays a second, mean %.6g%s%s\n", p_options.output.c_str(), p_result.width, p_result.height, p_result.spp, p_result.seconds,
+			double(p_result.rays) / p_result.seconds * 1e-6, mean / count, interval.c_str(), interrupted ? " (interrupted)" : "");
+}
+
+void warn(const PathTracerResult &p_result) {
+	if (p_result.untraced_pixels > 0) {
+		log_warning("{} of {} pixels have no sample: they are black, and left out of the mean", p_result.untraced_pixels, uint64_t(p_result.width) * p_result.height);
+	}
 	if (p_result.bad_samples > 0) {
 		log_warning("{} samples were not finite and count as black", p_result.bad_samples);
 	}
@@ -114,6 +123,7 @@ int trace(const ReferenceOptions &p_options, PathTracer &r_tracer) {
 	if (!p_options.quiet) {
 		print_summary(p_options, result.value());
 	}
+	warn(result.value());
 	return EXIT_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "modules/app/reference_options.h"
 
 #include "modules/app/exit_codes.h"
+#include "modules/app/number_check.h"
 #include "modules/app/parse_error.h"
 #include "modules/app/suggestion.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace lucent {
 
@@ -26,7 +28,13 @@ static std::string aov_list() {
 
 static std::string footer() {
 	return "The picture is linear, scene-referred light. Layer 'variance' is that of each mean: +- 1.96 sqrt(variance) holds the truth 95 times\n"
-		   "in 100. One seed gives one picture, whatever the number of threads. Ctrl-C writes what there is.\n"
+		   "in 100; it is 0, and the interval unknown, where a pixel has one sample. Without --time one seed gives one picture, whatever\n"
+		   "the number of threads. Ctrl-C writes what there is.\n"
+		   "\n"
+		   "  direct      light of lamps that the first surface reflects\n"
+		   "  indirect    everything else that it reflects: light of emissive surfaces and of the sky, seen by it or after bounces\n"
+		   "  emission    what the first surface emits\n"
+		   "  background  sky that the camera sees. The picture is the sum of these four\n"
 		   "\n"
 		   "Examples:\n"
 		   "  lucent reference doc/samples/cornell/cornell.tscn -o truth.exr --size 256x144 --spp 1024\n"
@@ -58,8 +66,8 @@ static void declare_options(CLI::App &r_app, ReferenceOptions &r_options, std::s
 	r_app.add_option("-o,--output", r_options.output, "picture to write: .exr")->type_name("FILE.exr")->multi_option_policy(last);
 	r_app.add_option("--size", r_size, "picture size [1280x720]")->type_name("WxH")->multi_option_policy(last);
 	r_app.add_option("--spp", tracer.spp, "samples a pixel [64]")->type_name("N")->check(CLI::Range(1u, 1u << 24))->multi_option_policy(last);
-	r_app.add_option("--time", tracer.time_limit_s, "stop after this many seconds")->type_name("SECONDS")->check(CLI::PositiveNumber)->multi_option_policy(last);
-	r_app.add_option("--seed", tracer.seed, "of the random numbers [0]")->type_name("N")->multi_option_policy(last);
+	r_app.add_option("--time", tracer.time_limit_s, "stop after about this many seconds; one sample of every pixel is made in any case")->type_name("SECONDS")->check(number_between(1e-3, 1e9))->multi_option_policy(last);
+	r_app.add_option("--seed", tracer.seed, "of the random numbers [0]")->type_name("N")->check(CLI::Range(0u, std::numeric_limits<uint32_t>::max()))->multi_option_policy(last);
 	r_app.add_option("--threads", tracer.threads, "threads [as many as the machine has]")->type_name("N")->check(CLI::Range(0u, 1024u))->multi_option_policy(last);
 	r_app.add_option("--filter", r_options.filter, "pixel filter: box, or blackman-harris (1.5 pixels wide) [box]")->type_name("NAME")->multi_option_policy(last);
 	r_app.add_option("--aov", r_options.aovs, "layers to add, separated by commas: " + aov_list() + ", or all")->type_name("LAYER,…")->expected(1)->delimiter(',')->multi_option_policy(all);

@@ -24,9 +24,9 @@ double percentile(std::vector<T> &r_values, double p_share) {
 	return r_values[index];
 }
 
-double ratio(double p_a, double p_b) {
+double ratio(double p_a, double p_b, double p_of_zeros) {
 	if (p_b == 0.0) {
-		return p_a == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+		return p_a == 0.0 ? p_of_zeros : std::numeric_limits<double>::infinity();
 	}
 	return p_a / p_b;
 }
@@ -90,9 +90,9 @@ void add_linear_metrics(const MetricImage &p_a, const MetricImage &p_b, const st
 	r_metrics.mean_a = sum_a / count;
 	r_metrics.mean_b = sum_b / count;
 	r_metrics.rmse = std::sqrt(square / (3.0 * count));
-	r_metrics.nrmse = ratio(r_metrics.rmse, r_metrics.mean_b);
+	r_metrics.nrmse = ratio(r_metrics.rmse, r_metrics.mean_b, 0.0);
 	r_metrics.relmse = relative / (3.0 * count);
-	r_metrics.energy = ratio(r_metrics.mean_a, r_metrics.mean_b);
+	r_metrics.energy = ratio(r_metrics.mean_a, r_metrics.mean_b, 1.0);
 	r_metrics.over_lit = double(over) / count;
 	r_metrics.under_lit = double(under) / count;
 }

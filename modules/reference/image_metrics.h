@@ -50,7 +50,7 @@ struct MetricSettings {
 };
 
 // p_mask: a byte a pixel, not 0: counts; empty: all do. Fails where sizes differ, nothing is chosen or a value is not finite.
-// Ratios over a mean of 0 are 0 where a is black too, else infinity.
+// Over a mean of 0, nrmse is 0 and energy 1 where a is black too, else both are infinite.
 Result<ImageMetrics> compare_images(const MetricImage &p_a, const MetricImage &p_b, std::span<const uint8_t> p_mask, const MetricSettings &p_settings = {});
 Result<LeakMetrics> measure_leak(const MetricImage &p_a, std::span<const uint8_t> p_mask);
 

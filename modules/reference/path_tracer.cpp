@@ -34,17 +34,17 @@ struct PixelSums {
 };
 
 struct LayerSums {
-	Vector3 direct{ 0.0f }, emission{ 0.0f }, background{ 0.0f }, albedo{ 0.0f }, normal{ 0.0f };
-	float depth_m = 0;
+	glm::dvec3 direct{ 0.0 }, emission{ 0.0 }, background{ 0.0 }, albedo{ 0.0 }, normal{ 0.0 };
+	double depth_m = 0;
 	uint32_t surface_count = 0;
 
 	void add(const PathLayers &p_sample) {
-		direct += p_sample.direct;
-		emission += p_sample.emission;
-		background += p_sample.background;
+		direct += glm::dvec3(p_sample.direct);
+		emission += glm::dvec3(p_sample.emission);
+		background += glm::dvec3(p_sample.background);
 		if (p_sample.depth_m > 0.0f) {
-			albedo += p_sample.albedo;
-			normal += p_sample.normal;
+			albedo += glm::dvec3(p_sample.albedo);
+			normal += glm::dvec3(p_sample.normal);
 			depth_m += p_sample.depth_m;
 			surface_count++;
 		}
@@ -124,7 +124,7 @@ struct PathTracer::Impl {
 			PathLayers layers;
 			Vector3 radiance = r_integrator.trace(x, y, random, r_film.layers.empty() ? nullptr : &layers);
 			if (!is_finite(radiance) || !is_finite(layers.direct)) {
-				radiance = layers.direct = Vector3(0.0f);
+				radiance = layers.direct = layers.emission = layers.background = Vector3(0.0f);
 				r_film.bad_samples++;
 			}
 			const glm::dvec3 value(radiance);
@@ -137,15 +137,21 @@ struct PathTracer::Impl {
 		}
 	}
 
-	// Adds p_samples to every pixel; tiles are dealt to whoever is free.
-	void trace_pass(Film &r_film, uint32_t p_samples) const {
+	// Adds p_samples to every pixel; tiles are dealt to whoever is free. p_stop is asked before each tile, by any thread; false: it stopped the pass.
+	template <typename F>
+	bool trace_pass(Film &r_film, uint32_t p_samples, const F &p_stop) const {
 		const PathTracerSettings &settings = r_film.settings;
 		const uint32_t tiles_x = (settings.width + TILE_PIXELS - 1) / TILE_PIXELS;
 		const uint32_t tiles_y = (settings.height + TILE_PIXELS - 1) / TILE_PIXELS;
 		std::atomic<uint32_t> next_tile{ 0 };
+		std::atomic<bool> stopped{ false };
 		run_threads(thread_count(settings), [&](uint32_t p_thread) {
 			PathIntegrator integrator(world, r_film.camera_rays);
-			for (uint32_t tile = next_tile++; tile < tiles_x * tiles_y && !r_film.cancelled(); tile = next_tile++) {
+			for (uint32_t tile = next_tile++; tile < tiles_x * tiles_y; tile = next_tile++) {
+				if (p_stop()) {
+					stopped = true;
+					break;
+				}
 				if (!r_film.recordings.empty()) {
 					std::vector<Ray> &recording = r_film.recordings[p_thread];
 					integrator.recording = recording.size() < r_film.recording_limit ? &recording : nullptr;
@@ -160,6 +166,7 @@ struct PathTracer::Impl {
 			}
 			r_film.rays += integrator.ray_count;
 		});
+		return !stopped;
 	}
 
 	static PathTracerResult develop(const Film &p_film) {
@@ -175,18 +182,19 @@ struct PathTracer::Impl {
 			put(result.radiance, mean);
 			put(result.variance, glm::max(pixel.square / n - mean * mean, glm::dvec3(0.0)) / std::max(n - 1.0, 1.0));
 			result.spp = std::min(result.spp, pixel.count);
+			result.untraced_pixels += pixel.count == 0;
 		}
 		for (size_t i = 0; i < p_film.layers.size(); i++) {
 			const LayerSums &layer = p_film.layers[i];
 			const double n = std::max(1u, p_film.pixels[i].count);
 			const double surfaces = std::max(1u, layer.surface_count);
-			put(result.direct, glm::dvec3(layer.direct) / n);
-			put(result.emission, glm::dvec3(layer.emission) / n);
-			put(result.background, glm::dvec3(layer.background) / n);
-			put(result.indirect, (p_film.pixels[i].sum - glm::dvec3(layer.direct) - glm::dvec3(layer.emission) - glm::dvec3(layer.background)) / n);
-			put(result.albedo, glm::dvec3(layer.albedo) / surfaces);
-			const float length = glm::length(layer.normal);
-			put(result.normal, length > 0.0f ? glm::dvec3(layer.normal / length) : glm::dvec3(0.0));
+			put(result.direct, layer.direct / n);
+			put(result.emission, layer.emission / n);
+			put(result.background, layer.background / n);
+			put(result.indirect, (p_film.pixels[i].sum - layer.direct - layer.emission - layer.background) / n);
+			put(result.albedo, layer.albedo / surfaces);
+			const double length = glm::length(layer.normal);
+			put(result.normal, length > 0.0 ? layer.normal / length : glm::dvec3(0.0));
 			result.depth.push_back(float(layer.depth_m / surfaces));
 		}
 		return result;
@@ -224,7 +232,10 @@ Result<PathTracerResult> PathTracer::render(const PathTracerSettings &p_settings
 	uint32_t pass = 1;
 	while (done < p_settings.spp && !film->cancelled()) {
 		pass = std::min(pass, p_settings.spp - done);
-		impl->trace_pass(*film, pass);
+		const auto stop = [&] { return film->cancelled() || (done > 0 && p_settings.time_limit_s > 0 && seconds_since(start) >= p_settings.time_limit_s); };
+		if (!impl->trace_pass(*film, pass, stop)) {
+			break;
+		}
 		done += pass;
 		// Passes of about half a second: often enough to report, rarely enough to cost nothing.
 		const double elapsed = seconds_since(start);
@@ -251,6 +262,7 @@ Result<PathTracerResult> PathTracer::render(const PathTracerSettings &p_settings
 Result<PathTracerThroughput> PathTracer::measure_throughput(const PathTracerSettings &p_settings) {
 	constexpr size_t MAX_RECORDED = 4'000'000;
 	// The process's CPU time, all threads together: other work on the machine doesn't count.
+	const auto never = [] { return false; };
 	const auto cpu_seconds = [] { return double(std::clock()) / CLOCKS_PER_SEC; };
 	if (const Status status = check_settings(p_settings); !status) {
 		return status.error();
@@ -262,7 +274,7 @@ Result<PathTracerThroughput> PathTracer::measure_throughput(const PathTracerSett
 	film->recording_limit = MAX_RECORDED / threads;
 	uint32_t samples = 0;
 	while (samples < p_settings.spp && result.recorded_rays < MAX_RECORDED) {
-		impl->trace_pass(*film, 1);
+		impl->trace_pass(*film, 1, never);
 		samples++;
 		result.recorded_rays = 0;
 		for (const std::vector<Ray> &recording : film->recordings) {
@@ -275,7 +287,7 @@ Result<PathTracerThroughput> PathTracer::measure_throughput(const PathTracerSett
 	for (uint32_t done = 0; done < p_settings.spp || trace_seconds < 1.0 || replay_seconds < 1.0; done += samples) {
 		const double start = cpu_seconds();
 		const std::unique_ptr<Impl::Film> again = impl->make_film(p_settings);
-		impl->trace_pass(*again, samples);
+		impl->trace_pass(*again, samples, never);
 		const double middle = cpu_seconds();
 		run_threads(threads, [&](uint32_t p_thread) { impl->world.scene->count_hits(film->recordings[p_thread]); });
 		trace_seconds += middle - start;

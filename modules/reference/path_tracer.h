@@ -32,9 +32,9 @@ struct PathTracerSettings {
 	uint32_t spp = 64; // samples a pixel, at most 2^24
 	uint32_t seed = 0;
 	uint32_t threads = 0; // 0: as many as the machine has. The result doesn't depend on it
-	double time_limit_s = 0; // 0: none. Stops after the pass that reaches it
+	double time_limit_s = 0; // 0: none. Checked between tiles once every pixel has a sample, so pixels may end with different numbers of them
 	PixelFilter filter = PixelFilter::BOX;
-	bool aov = false; // keep the layers of the first hit
+	bool aov = false; // keep the layers of the first hit: 136 bytes a pixel more than the picture's 56
 	const std::atomic<bool> *cancel = nullptr; // set by another thread or a signal: stop, keep what there is
 };
 
@@ -49,15 +49,16 @@ struct PathTracerProgress {
 struct PathTracerResult {
 	uint32_t width = 0;
 	uint32_t height = 0;
-	uint32_t spp = 0; // done for every pixel
+	uint32_t spp = 0; // done for every pixel, at least
+	uint64_t untraced_pixels = 0; // without a sample, as the first pass was cancelled; black
 	double seconds = 0;
 	uint64_t rays = 0; // traced, shadow rays included
 	uint64_t bad_samples = 0; // not finite: counted as black
 	std::vector<float> radiance; // the mean
-	std::vector<float> variance; // of the mean: +- 1.96 sqrt(variance) is a 95 % interval. 0 for a single sample
+	std::vector<float> variance; // of the mean: +- 1.96 sqrt(variance) is a 95 % interval. Unknown, and written as 0, where a pixel has fewer than 2 samples
 
 	// With PathTracerSettings::aov; else empty. radiance = direct + indirect + emission + background.
-	std::vector<float> direct; // light of lamps at the first surface
+	std::vector<float> direct; // light of lamps that the first surface reflects
 	std::vector<float> indirect; // everything else that it reflects: emissive surfaces, sky, bounces
 	std::vector<float> emission; // of the first surface (unshaded ones: their colour)
 	std::vector<float> background; // sky seen directly

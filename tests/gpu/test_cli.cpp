@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs the program as a user does: exit codes, one clear line, no partial file.
 #include "modules/app/exit_codes.h"
+#include "modules/image/image_io.h"
 #include "tests/test_support.h"
 
 #include <doctest/doctest.h>
@@ -143,6 +144,53 @@ TEST_CASE("cli: wrong arguments are refused before anything is drawn") {
 	check_refused(lucent_command("render '" + scene + "'"), folder, EXIT_USAGE, "-o");
 	check_refused(lucent_command("render '" + scene + "' -o x.bmp"), folder, EXIT_USAGE, ".png");
 	check_refused(render(folder, scene, "--device 'no such device'"), folder, EXIT_DEVICE, "no such device");
+}
+
+// A picture of 8x8 equal values.
+std::string grey_exr(const Folder &p_folder, const std::string &p_name, float p_value) {
+	const std::string path = (p_folder.path / p_name).string();
+	const std::vector<float> values(8 * 8 * 3, p_value); // outlives the layer, which only points to it
+	const std::vector<ExrLayer> layers = { { "", { "R", "G", "B" }, values } };
+	REQUIRE(write_exr(path, 8, 8, layers).ok());
+	return path;
+}
+
+TEST_CASE("cli: what compare returns") {
+	const Folder folder;
+	const std::string half = grey_exr(folder, "half.exr", 0.5f), black = grey_exr(folder, "black.exr", 0.0f), png = (folder.path / "half.png").string();
+	REQUIRE(write_png(png, 8, 8, 3, std::vector<uint8_t>(8 * 8 * 3, 188)).ok());
+	const std::string same = "compare '" + half + "' '" + half + "' ", other = "compare '" + black + "' '" + half + "' ", dark = "compare '" + black + "' '" + black + "' ";
+	CHECK(lucent_command(same + "--threshold rmse=0 --threshold ssim=1").code == EXIT_OK);
+	CHECK(lucent_command(other).code == EXIT_OK);
+	CHECK(lucent_command(dark + "--threshold energy=0.05").code == EXIT_OK);
+	check_refused(lucent_command(other + "--threshold flip=0.01"), folder, EXIT_WORSE, "flip is");
+	for (const std::string wrong : { "--exposure nan", "--exposure 0", "--exposure inf", "--threshold flip=nan", "--threshold flip=inf", "--threshold flip=-1", "--threshold flipp=1", "--threshold leak_max=1", "--diff x.jpg" }) {
+		const CommandResult result = lucent_command(other + wrong);
+		check_refused(result, folder, EXIT_USAGE, wrong.substr(0, wrong.find(' ')));
+		CHECK(result.err.size() < 300);
+	}
+	check_refused(lucent_command(other + "--layer albedo"), folder, EXIT_BAD_INPUT, "albedo");
+	check_refused(lucent_command("compare '" + half + "' '" + folder.output() + "'"), folder, EXIT_BAD_INPUT, folder.output());
+	check_refused(lucent_command(same + "--diff '" + (folder.path / "none" / "d.png").string() + "'"), folder, EXIT_OUTPUT, "d.png");
+	const CommandResult mixed = lucent_command("compare '" + png + "' '" + half + "' --threshold nrmse=0.01");
+	CHECK(mixed.code == EXIT_OK);
+	CHECK(mixed.count("warning: ") == 1);
+	CHECK(lucent_command(same).err.empty());
+}
+
+TEST_CASE("cli: reference says what is wrong before it traces") {
+	const Folder folder;
+	const std::string exr = (folder.path / "out.exr").string();
+	const std::string reference = "reference '" + triangle_gltf(folder, 2, 0.0f, "3") + "' -o '" + exr + "' --size 16x9 ";
+	for (const std::string wrong : { "--time nan", "--time 0", "--time inf", "--seed -1", "--seed 4294967296", "--spp 0", "--threads 2000", "--filter gauss", "--aov albedoo", "--size 0x1" }) {
+		const CommandResult result = lucent_command(reference + wrong);
+		check_refused(result, folder, EXIT_USAGE, wrong.substr(0, wrong.find(' ')));
+		CHECK(result.err.size() < 300);
+	}
+	check_refused(lucent_command("reference nothing.tscn -o '" + exr + "'"), folder, EXIT_BAD_INPUT, "nothing.tscn");
+	CHECK_FALSE(fs::exists(exr));
+	CHECK(lucent_command(reference + "--spp 1 --quiet").err.empty());
+	CHECK(fs::exists(exr));
 }
 
 TEST_CASE("cli: bench says what is wrong before it measures") {

@@ -64,6 +64,18 @@ TEST_CASE("image metrics: equal images have no error") {
 	CHECK(result.value().ssim == doctest::Approx(1.0));
 }
 
+TEST_CASE("image metrics: a black truth") {
+	const MetricImage black = constant(4, 4, 0, 0, 0);
+	const Result<ImageMetrics> equal = compare_images(black, black, {});
+	REQUIRE(equal.ok());
+	CHECK(equal.value().energy == 1.0);
+	CHECK(equal.value().nrmse == 0.0);
+	const Result<ImageMetrics> lit = compare_images(constant(4, 4, 0.1f, 0, 0), black, {});
+	REQUIRE(lit.ok());
+	CHECK(std::isinf(lit.value().energy));
+	CHECK(std::isinf(lit.value().nrmse));
+}
+
 TEST_CASE("image metrics: a mask chooses what counts") {
 	MetricImage a = constant(4, 4, 1.0f, 1.0f, 1.0f);
 	const MetricImage b = constant(4, 4, 1.0f, 1.0f, 1.0f);

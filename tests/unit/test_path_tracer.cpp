@@ -241,9 +241,31 @@ TEST_CASE("path tracer: refuses what it can't do, and stops when told") {
 	const Result<PathTracerResult> partial = tracer.value()->render(cancelled, [&](const PathTracerProgress &) { cancel = true; });
 	REQUIRE(partial.ok());
 	CHECK(partial.value().spp == 1);
+	CHECK(partial.value().untraced_pixels == 0);
+	const Result<PathTracerResult> none = tracer.value()->render(cancelled);
+	REQUIRE(none.ok());
+	CHECK(none.value().spp == 0);
+	CHECK(none.value().untraced_pixels == 64);
 	PathTracerSettings limited = settings(1 << 24);
 	limited.time_limit_s = 0.2;
 	const Result<PathTracerResult> timed = tracer.value()->render(limited);
 	REQUIRE(timed.ok());
 	CHECK(timed.value().seconds < 2.0);
+	limited = settings(1 << 24, 256);
+	limited.time_limit_s = 1e-6;
+	const Result<PathTracerResult> hurried = tracer.value()->render(limited);
+	REQUIRE(hurried.ok());
+	CHECK(hurried.value().spp == 1);
+}
+
+TEST_CASE("path tracer: layers of many samples stay exact") {
+	TraceTestScene test;
+	test.add_mesh(TraceTestScene::square(5.0f), TraceTestScene::lambertian(Vector3(0.569f)));
+	PathTracerSettings many = settings(1 << 18, 1); // floats' sums would be off by more than a percent
+	many.threads = 1;
+	many.aov = true;
+	const PathTracerResult result = test.render(many);
+	CHECK(result.spp == many.spp);
+	CHECK(result.albedo[0] == doctest::Approx(0.569).epsilon(1e-5));
+	CHECK(result.depth[0] == doctest::Approx(0.5).epsilon(1e-5));
 }
