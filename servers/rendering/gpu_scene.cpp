@@ -102,7 +102,7 @@ void GpuScene::collect_instance(const RenderScene &p_scene, const GpuAssets &p_a
 		draw.box = box;
 		scene_draws.push_back(draw);
 		if (p_instance.gi_mode == GiMode::STATIC && draw.drawn) {
-			view.gi_surfaces.push_back({ view.gi_triangle_count, draw.geometry.first_index, draw.geometry.vertex_offset, draw.instance, draw.material });
+			view.gi_surfaces.push_back({ view.gi_triangle_count, view.gi_triangle_count, draw.geometry.first_index, draw.geometry.vertex_offset, draw.instance, draw.material });
 			view.gi_surface_boxes.push_back(box);
 			view.gi_triangle_count += draw.geometry.index_count / 3;
 		}

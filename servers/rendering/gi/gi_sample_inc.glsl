@@ -80,7 +80,7 @@ void find_footprint(vec3 position_m, uint cascade) {
 		ivec3 cell = footprint.base + ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
 		ivec3 local = cell - world.cascades[cascade].origin_cells;
 		bool inside = all(greaterThanEqual(local, ivec3(0))) && all(lessThan(local, ivec3(int(world.grid_size))));
-		footprint.cells[i] = inside ? load_cell(cascade, cell) : WorldCell(uvec2(0u), 0u);
+		footprint.cells[i] = inside ? load_cell(cascade, cell) : WorldCell(uvec2(0u), 0u, WORLD_NOT_LISTED);
 		all_faces |= footprint.cells[i].records & 63u;
 		all_flat = all_flat && ((footprint.cells[i].bits.x | footprint.cells[i].bits.y) == 0u || (footprint.cells[i].records & WORLD_CELL_FLAT) != 0u);
 	}

@@ -73,6 +73,7 @@ struct MaterialData {
 // One drawn surface of one instance, as GI's voxelizer walks them: triangle t of all GI triangles belongs to the last surface with first_triangle <= t.
 struct GiSurface {
 	uint first_triangle; // running sum over the list
+	uint world_triangle; // its first in the list of all surfaces
 	uint first_index; // into the index buffer
 	int vertex_offset; // added to each index
 	uint instance;
@@ -101,6 +102,6 @@ INTEROP_END
 INTEROP_SIZE(InstanceData, 104)
 INTEROP_SIZE(VertexAttributes, 48)
 INTEROP_SIZE(MaterialData, 248)
-INTEROP_SIZE(GiSurface, 20)
+INTEROP_SIZE(GiSurface, 24)
 INTEROP_SIZE(LightData, 92)
 #endif

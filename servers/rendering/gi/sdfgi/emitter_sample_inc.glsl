@@ -109,6 +109,9 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 // the surface, and a record's plane is the mean of what its cell holds, so that a flat ray meets neighbours before the point it is meant for.
 bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	WorldRecord emitter = stored_record(target);
+	if (hit.face != HIT_BITS && hit.face != record_face(emitter)) {
+		return false;
+	}
 	if (hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter)) {
 		return true;
 	}

@@ -232,6 +232,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	i.world->set_sky_scale(p_settings.read_sky_light ? 1.0f : 0.0f);
 
 	std::vector<uint32_t> stale;
+	const bool triangles_changed = !i.cascades_placed || p_scene.geometry_version != i.geometry_version;
 	i.place_cascades(p_camera_position_m, stale);
 	if (p_scene.geometry_version != i.geometry_version) {
 		stale.clear();
@@ -250,6 +251,11 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	}
 	i.world->upload_params(r_recorder);
 	i.upload_probe_params(r_recorder, p_camera_position_m);
+	if (triangles_changed) {
+		const uint64_t before = i.world->size_bytes();
+		i.world->store_triangles(r_recorder, p_scene);
+		i.stats.bytes += i.world->size_bytes() - before;
+	}
 	for (const uint32_t cascade : stale) {
 		i.world->rebuild_cascade(r_recorder, p_scene, cascade);
 		place_probes(r_recorder, i.pass_inputs(), cascade);

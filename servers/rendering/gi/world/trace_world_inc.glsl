@@ -2,11 +2,14 @@
 // Rays through the world: sphere steps by the distance field through empty cells, exact stepping through stored cells and
 // their sub-voxels. Every point of a ray is looked up in the finest cascade that holds it.
 //
-// Solid bits reach up to a sub-voxel beyond the surface. In a flat cell a ray therefore only stops in a solid sub-voxel where it
-// crosses the plane of one of the cell's records, or is behind all of them: openings keep their size.
+// Solid bits reach up to a sub-voxel beyond the surface. They only say where a surface may be: in a cell that lists its triangles (nearly
+// all) a ray that comes through a solid sub-voxel meets the triangles themselves. In other flat cells it stops where it crosses the
+// plane of one of the cell's records, or is behind all of them. Only cells of many triangles that aren't flat are as large as their bits.
 //
 // No leak: triangles set every sub-voxel that they touch, so any path through face-neighbouring sub-voxels that crosses a
-// surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space.
+// surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space. A cell's
+// list holds every triangle that comes within WORLD_TRIANGLE_GROWTH_CELLS of it, and rays meet triangles that are grown by as much, so that
+// neither rounding nor a crack in a model lets a ray pass between two of them.
 #ifndef TRACE_WORLD_INC
 #define TRACE_WORLD_INC
 #include "servers/rendering/gi/world/world_lookup_inc.glsl"
@@ -27,8 +30,11 @@ struct WorldHit {
 	uint cell; // index, or WORLD_LOST_CELL
 	ivec3 world_cell;
 	float t_m;
-	vec3 position_m; // where the ray enters the solid sub-voxel
+	vec3 position_m; // on a listed triangle; elsewhere where the ray enters the solid sub-voxel
+	uint face; // that a met triangle shows the ray, or HIT_*
 };
+#define HIT_BACK 6u // of a one-sided surface
+#define HIT_BITS 7u // the cell lists no triangles: any of its surfaces may have been met
 
 bool cascade_holds(uint cascade, vec3 position_m) {
 	GiCascade c = world.cascades[cascade];
@@ -111,14 +117,83 @@ bool is_outside(ivec3 at, int size) {
 	return any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(size)));
 }
 
-// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in
-// metres to the surface, or a negative number.
+bool cell_is_listed(WorldCell cell) {
+	return cell.triangles != WORLD_NOT_LISTED;
+}
+
+WorldTriangle listed_triangle(WorldCell cell, uint i) {
+	count_fetch(4u);
+	count_fetch(40u);
+	return world_triangles[world_cell_triangles[(cell.triangles >> 6) + i]];
+}
+
+// Where the line o + t * d meets a triangle that is grown by `growth` at its edges; false: it does not. r_along: of d along the normal.
+bool meets_triangle(WorldTriangle triangle, vec3 o, vec3 d, float growth, out float t, out float r_along) {
+	vec3 a = triangle.v[0] - o;
+	vec3 b = triangle.v[1] - o;
+	vec3 c = triangle.v[2] - o;
+	vec3 ab = b - a;
+	vec3 bc = c - b;
+	vec3 ca = a - c;
+	vec3 n = cross(ab, -ca);
+	r_along = dot(n, d);
+	t = abs(r_along) > 1e-30 ? dot(n, a) / r_along : -1.0;
+	vec3 p = d * t;
+	// Distances from the edges, times the edges' lengths and the normal's.
+	vec3 inside = vec3(dot(cross(ab, p - a), n), dot(cross(bc, p - b), n), dot(cross(ca, p - c), n));
+	vec3 limit = -growth * length(n) * sqrt(vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca)));
+	return t >= 0.0 && all(greaterThanEqual(inside, limit));
+}
+
+float triangle_growth_m(uint cascade) {
+	return WORLD_TRIANGLE_GROWTH_CELLS * world.cascades[cascade].cell_m.y;
+}
+
+// A point of an alpha-tested triangle counts where its sub-voxel of the cell at `at` (world-fixed) is solid.
+bool is_solid_in_cell(uint cascade, WorldCell cell, ivec3 at, vec3 position_m) {
+	vec3 p = (position_m / world.cascades[cascade].cell_m - vec3(at)) * float(WORLD_SUB_VOXELS);
+	uvec3 s = uvec3(clamp(floor(p), vec3(0.0), vec3(3.0)));
+	return bit_is_set(cell.bits, s.x + 4u * s.y + 16u * s.z);
+}
+
+// The nearest of a listed cell's triangles that the ray meets between two ways; `at` is the cell, world-fixed. r_way_m: the way to it, or
+// negative.
+void meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out float r_way_m, out uint r_face) {
+	float growth = triangle_growth_m(cascade);
+	uint count = cell.triangles & 63u;
+	uint nearest = 0xFFFFFFFFu;
+	r_way_m = -1.0;
+	r_face = HIT_BACK;
+	for (uint i = 0u; i < count; i++) {
+		uint number = world_cell_triangles[(cell.triangles >> 6) + i];
+		WorldTriangle triangle = world_triangles[number];
+		count_fetch(44u);
+		float t;
+		float along;
+		if (!meets_triangle(triangle, origin_m, d, growth, t, along) || t < between_m.x || t > between_m.y) {
+			continue;
+		}
+		if (r_way_m >= 0.0 && (t > r_way_m || (t == r_way_m && number > nearest))) {
+			continue;
+		}
+		if ((triangle.flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
+			continue;
+		}
+		r_way_m = t;
+		nearest = number;
+		uint front = triangle.flags & WORLD_TRIANGLE_FACE;
+		r_face = along < 0.0 ? front : ((triangle.flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+	}
+}
+
+// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in metres to
+// the first solid one, in a flat cell that isn't listed to the surface, or a negative number.
 float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
 	ivec3 direction_sign = ivec3(sign(rate));
 	GridWalk walk;
 	walk.at = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - entry) * inverse_rate;
-	bool flat_cell = (cell.records & WORLD_CELL_FLAT) != 0u;
+	bool by_planes = (cell.records & WORLD_CELL_FLAT) != 0u && !cell_is_listed(cell);
 	float t = 0.0;
 	bool inside = true;
 	for (uint tests = 0u; tests < 12u && inside; tests++) {
@@ -135,7 +210,7 @@ float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3
 			break;
 		}
 		float t_leave = walk_leaves(walk);
-		if (!flat_cell || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
+		if (!by_planes || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
 			return t;
 		}
 		t = t_leave;
@@ -167,6 +242,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 	result.cascade = first_cascade;
 	result.world_cell = ivec3(0);
 	result.position_m = origin_m;
+	result.face = HIT_BITS;
 	// No zero components: every division below is finite.
 	vec3 d = mix(direction, vec3(1e-7), lessThan(abs(direction), vec3(1e-7)));
 	vec3 inverse_direction = 1.0 / d;
@@ -227,9 +303,18 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			uint index = find_cell(cascade, storage_from_world_cell(walk.at + c.origin_cells));
 			if (index < WORLD_LOST_CELL) {
 				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
-				float way = trace_sub_voxels(cascade, stored_cell(index), entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+				WorldCell cell = stored_cell(index);
+				float way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
 				result.hit = way >= 0.0;
 				result.t_m = t + way;
+				result.face = HIT_BITS;
+				if (result.hit && cell_is_listed(cell)) {
+					// As far beyond the cell as its list reaches.
+					float growth = triangle_growth_m(cascade);
+					vec2 between_m = vec2(t - growth, min(walk_leaves(walk) + growth, t_max_m));
+					meet_triangles(cascade, cell, walk.at + c.origin_cells, origin_m, d, between_m, result.t_m, result.face);
+					result.hit = result.t_m >= 0.0;
+				}
 			} else if (index == WORLD_LOST_CELL) {
 				result.hit = true;
 				result.t_m = t;
