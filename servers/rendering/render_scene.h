@@ -9,6 +9,7 @@
 #include "servers/core/rid.h"
 #include "servers/rendering/gi/sdfgi/sdfgi_settings.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -348,6 +349,13 @@ struct GiStats {
 	uint64_t rays = 0; // most in a frame since the last reset, or with SdfgiSettings::count_every_frame in the last frame; 0 at rest
 	uint64_t surface_cells = 0; // alive, all cascades
 	uint64_t surface_records = 0;
+	uint64_t listed_triangles = 0; // in the cells' lists, one that several cells hold counts several times
+	// The rays of one frame that records gathered light with: met the sky, a record, a record beside the one that was to answer, nothing that
+	// answers, the back of a one-sided surface, a cell without memory. The last three are black.
+	std::array<uint64_t, 6> gather_rays{};
+	// Pixels of a picture without a free point before them, and those that no record lights.
+	uint64_t startless_pixels = 0;
+	uint64_t recordless_pixels = 0;
 	uint64_t probes = 0;
 	uint64_t bytes = 0; // GPU memory of GI
 	std::vector<GiFetches> fetches; // of the last frame, with SdfgiSettings::count_fetches; passes that build the world are not among them

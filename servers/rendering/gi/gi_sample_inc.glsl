@@ -34,6 +34,8 @@ struct GiSample {
 	vec3 irradiance; // / pi
 	vec3 radiance;
 	float weight; // 0 where GI doesn't reach
+	float from_records; // share of it that surface records answered
+	bool startless; // no free point was found before the surface
 };
 
 struct GiQuery {
@@ -45,7 +47,8 @@ struct GiQuery {
 	bool has_start;
 };
 
-// A point just off the surface, in a free sub-voxel. The way to the eye is free, so steps towards it stay on the surface's side.
+// A point just off the surface, in a free sub-voxel, or where the cells know their surfaces at the end of a free way. The way to the eye is
+// free, so steps towards it stay on the surface's side.
 void find_query_start(inout GiQuery query, uint cascade) {
 	float along_normal = sub_voxel_along_m(cascade, query.normal);
 	float along_view = sub_voxel_along_m(cascade, query.view);
@@ -56,6 +59,12 @@ void find_query_start(inout GiQuery query, uint cascade) {
 		float towards = probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u));
 		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
 		query.has_start = !sub_voxel_is_solid(cascade, query.start_m);
+	}
+	// Between solid sub-voxels: less and less far off.
+	vec3 near_m = query.position_m + query.normal * (0.02 * along_normal);
+	for (uint i = 0u; i < 4u && !query.has_start; i++) {
+		query.start_m = query.position_m + query.normal * (probe_params.normal_bias * exp2(-float(i)) * along_normal);
+		query.has_start = short_way_is_free(cascade, near_m, query.start_m);
 	}
 }
 
@@ -231,7 +240,7 @@ float cascade_fade(uint cascade, vec3 position_m) {
 
 // `rays`: probes are asked with visibility where records don't answer in full; without, false is returned there.
 bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, const bool rays, out GiSample result) {
-	result = GiSample(vec3(0.0), vec3(0.0), 0.0);
+	result = GiSample(vec3(0.0), vec3(0.0), 0.0, 0.0, false);
 	vec3 reflected = reflect(-view, normal);
 	bool glossy = roughness < GI_DIFFUSE_ROUGHNESS;
 	float left = 1.0;
@@ -264,6 +273,8 @@ bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, c
 		result.irradiance += share * irradiance;
 		result.radiance += share * radiance;
 		result.weight += share;
+		result.from_records += share * records.w;
+		result.startless = result.startless || !query.has_start;
 		left -= share;
 	}
 	result.irradiance *= probe_params.energy;

@@ -117,7 +117,7 @@ bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	}
 	vec3 normal = record_normal(emitter);
 	float before_plane_m = (ray.t_max_m - hit.t_m) * -dot(normal, ray.direction);
-	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > float(WORLD_SUB_VOXELS) * sub_voxel_along_m(hit.cascade, normal)) {
+	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > (hit.face == HIT_BITS ? float(WORLD_SUB_VOXELS) : 0.5) * sub_voxel_along_m(hit.cascade, normal)) {
 		return false;
 	}
 	uint packed_records = stored_cell(hit.cell).records;

@@ -23,7 +23,7 @@ constexpr uint32_t VOXEL_STRETCHES = 18;
 constexpr uint32_t STRETCH_CAPACITY = 131072; // 512 triangles that fill a cascade of 128 cells an axis
 
 // 128 MiB of triangles; cells that others touch keep to their solid bits.
-constexpr uint32_t STORED_TRIANGLES = 3355443;
+constexpr uint32_t STORED_TRIANGLES = (128u << 20) / WORLD_TRIANGLE_BYTES;
 
 constexpr uint32_t EMITTER_CAPACITY = 16384;
 constexpr uint32_t STATE_BYTES = 2 * 12; // record_rays_inc.glsl: two vec3 a record
@@ -45,7 +45,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	// An eighth of the grid: a room's walls take a tenth at most; doc/sdfgi.md, "Capacity".
 	params.cell_capacity = cell_count / 8;
 	params.record_capacity = cell_count / 6;
-	params.triangle_capacity = cell_count / 4;
+	params.triangle_capacity = cell_count / 2;
 	params.sky_scale = 1.0f;
 	params.hole_margin_cells = 8;
 	for (uint32_t i = 0; i < p_desc.cascades; i++) {
@@ -74,7 +74,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	near_bricks[0] = make_buffer("gi_world.near_bricks0", uint64_t(bricks) * 4);
 	near_bricks[1] = make_buffer("gi_world.near_bricks1", uint64_t(bricks) * 4);
 	near_list = make_buffer("gi_world.near_list", sizeof(shader::NearBrickHeader) + uint64_t(bricks) * 4, BUFFER_STORAGE | BUFFER_INDIRECT);
-	world_triangles = device.create_buffer({ .size_bytes = sizeof(shader::WorldTriangle), .name = "gi_world.triangles" });
+	world_triangles = device.create_buffer({ .size_bytes = WORLD_TRIANGLE_BYTES, .name = "gi_world.triangles" });
 	surfaces.resize(p_desc.cascades);
 	sky_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
 }
@@ -131,9 +131,9 @@ ComputePass GiWorld::geometry_pass(PassRecorder &r_recorder, const char *p_name,
 }
 
 void GiWorld::store_triangles(PassRecorder &r_recorder, const GiSceneView &p_scene) {
-	const uint64_t room = device.info().max_storage_buffer_bytes / sizeof(shader::WorldTriangle);
+	const uint64_t room = device.info().max_storage_buffer_bytes / WORLD_TRIANGLE_BYTES;
 	stored_triangles = uint32_t(std::min<uint64_t>({ p_scene.gi_triangle_count, room, STORED_TRIANGLES }));
-	const uint64_t size_bytes = std::max(stored_triangles, 1u) * sizeof(shader::WorldTriangle);
+	const uint64_t size_bytes = std::max(stored_triangles, 1u) * WORLD_TRIANGLE_BYTES;
 	if (size_bytes > world_triangle_bytes) {
 		world_triangles = device.create_buffer({ .size_bytes = size_bytes, .name = "gi_world.triangles" });
 		world_triangle_bytes = size_bytes;

@@ -28,25 +28,27 @@ layout(push_constant, scalar) uniform PlacePush {
 
 #define MAX_START 29u
 
-// How many steps along the normal are free, by the planes of flat cells: less than MAX_START where another surface faces this one.
+// How many steps along the normal are free, by triangles and the planes of flat cells: less than MAX_START where another surface faces this one.
 uint free_steps(uint cascade, vec3 position_m, vec3 normal, float step_m) {
-	WorldHit hit = trace_world(position_m + normal * step_m, normal, float(MAX_START - 1u) * step_m, cascade);
-	return hit.hit && hit.t_m > 0.25 * step_m ? 1u + uint(hit.t_m / step_m) : MAX_START;
+	float off_m = 0.1 * step_m;
+	WorldHit hit = trace_world(position_m + normal * off_m, normal, float(MAX_START) * step_m, cascade);
+	return hit.hit ? uint((hit.t_m + off_m) / step_m) : MAX_START;
 }
 
-// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels. In a gap without a free sub-voxel, at the
-// surface of a flat cell, half way through.
-uint find_start(uint cascade, vec3 position_m, vec3 normal, bool is_flat) {
+// Quarter sub-voxels along the normal to the first free sub-voxel; 0: none within seven sub-voxels. In a gap without a free sub-voxel, where
+// the cell knows its surfaces, half way through.
+uint find_start(uint cascade, vec3 position_m, vec3 normal, bool is_exact) {
 	float step_m = 0.25 * sub_voxel_along_m(cascade, normal);
-	uint steps = is_flat ? free_steps(cascade, position_m, normal, step_m) : MAX_START;
-	for (uint i = 3u; i < MAX_START && i <= steps; i++) {
+	uint steps = is_exact ? free_steps(cascade, position_m, normal, step_m) : MAX_START;
+	for (uint i = 3u; i < MAX_START && i < steps; i++) {
 		if (!sub_voxel_is_solid(cascade, position_m + normal * (float(i) * step_m))) {
 			// A little further, so that the point isn't on the solid's face; still in the sub-voxel or the next one.
-			uint further = i + 1u;
+			uint further = min(i + 1u, steps - 1u);
 			return sub_voxel_is_solid(cascade, position_m + normal * (float(further) * step_m)) ? i : further;
 		}
 	}
-	return steps < MAX_START ? (steps + 1u) / 2u : 0u;
+	// In the open within solid sub-voxels: as far off as a free one would be.
+	return is_exact ? min((steps + 1u) / 2u, 4u) : 0u;
 }
 
 // How many of the test rays from the start end at the back of a surface.
@@ -58,6 +60,10 @@ uint backs_seen(uint cascade, WorldRecord record) {
 		vec3 direction = cosine_direction(r2_point(i, 0u), normal);
 		WorldHit hit = trace_world(start_m, direction, TEST_REACH_CELLS * world.cascades[cascade].cell_m.x, cascade);
 		if (!hit.hit || hit.cell >= WORLD_LOST_CELL) {
+			continue;
+		}
+		if (hit.face != HIT_BITS) {
+			backs += hit.face == HIT_BACK ? 1u : 0u;
 			continue;
 		}
 		uint packed_records = world_cells[hit.cell].records;
@@ -91,11 +97,50 @@ bool move_to_column(inout WorldRecord record, uint column) {
 	return true;
 }
 
+// Puts a record's place onto the nearest of its triangles along its axis, in a cell that lists them; false: there is none. The mean of two
+// surfaces lies on neither.
+bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
+	uint cascade = record_cascade(record);
+	uint axis = record_face(record) >> 1;
+	vec3 cell_m = world.cascades[cascade].cell_m;
+	ivec3 at = record_world_cell(record);
+	vec3 place = record_position_in_cell(record);
+	vec3 low_m = place;
+	low_m[axis] = 0.0;
+	low_m = (vec3(at) + low_m) * cell_m;
+	vec3 d = vec3(0.0);
+	d[axis] = cell_m[axis];
+	float nearest = 1e9;
+	float found = 0.0;
+	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
+		float along;
+		uint flags;
+		float t = meet_triangle(world_cell_triangles[(cell.triangles >> 6) + i], low_m - d * 0.001, d, vec2(0.0, 1.002), triangle_growth_m(cascade), along, flags);
+		uint front = flags & WORLD_TRIANGLE_FACE;
+		bool shows = front == record_face(record) || ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u && (front ^ 1u) == record_face(record));
+		if (t >= 0.0 && shows && abs(t - 0.001 - place[axis]) < nearest) {
+			nearest = abs(t - 0.001 - place[axis]);
+			found = t - 0.001;
+		}
+	}
+	if (nearest > 1.0) {
+		return false;
+	}
+	place[axis] = clamp(found, 0.0, 1.0);
+	uvec3 p = uvec3(place * 511.0 + 0.5);
+	record.position = p.x | (p.y << 9) | (p.z << 18);
+	return true;
+}
+
 uint placed(uint cascade, WorldRecord record) {
 	vec3 normal = record_normal(record);
 	WorldCell cell = world_cells[find_cell(cascade, storage_from_world_cell(record_world_cell(record)))];
 	bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
-	uint best = record.position | (find_start(cascade, record_position_m(record), normal, is_flat) << 27);
+	bool is_listed = cell_is_listed(cell);
+	if (is_listed && !is_flat) {
+		move_to_triangle(record, cell);
+	}
+	uint best = record.position | (find_start(cascade, record_position_m(record), normal, is_flat || is_listed) << 27);
 	uint faces = cell.records & 63u;
 	if ((faces & (faces - 1u)) == 0u) {
 		return best;
@@ -110,7 +155,10 @@ uint placed(uint cascade, WorldRecord record) {
 		if (((columns >> column) & 1u) == 0u || !move_to_column(at, column)) {
 			continue;
 		}
-		uint start = find_start(cascade, record_position_m(at), normal, is_flat);
+		if (is_listed && !is_flat && !move_to_triangle(at, cell)) {
+			continue;
+		}
+		uint start = find_start(cascade, record_position_m(at), normal, is_flat || is_listed);
 		at.position |= start << 27;
 		uint backs = start != 0u ? backs_seen(cascade, at) : TEST_RAYS + 1u;
 		if (backs < fewest) {

@@ -7,8 +7,8 @@
 #define STORE_TRIANGLES_OUT 20
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = STORE_TRIANGLES_OUT, scalar) writeonly buffer TrianglesBlock {
-	WorldTriangle world_triangles[];
+layout(set = 0, binding = STORE_TRIANGLES_OUT, std430) writeonly buffer TrianglesBlock {
+	vec4 world_triangles[];
 };
 
 void main() {
@@ -21,13 +21,12 @@ void main() {
 	MaterialData material = materials[surface.material];
 	vec3 front = front_normal(triangle, material);
 	bool flipped = dot(front, cross(triangle.v[1] - triangle.v[0], triangle.v[2] - triangle.v[0])) < 0.0;
-	WorldTriangle result;
+	uint flags = face_from_normal(world_normal_from_cells(constants.cascade, front));
+	flags |= (material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u ? WORLD_TRIANGLE_DOUBLE_SIDED : 0u;
+	flags |= is_alpha_tested(material) ? WORLD_TRIANGLE_ALPHA_TESTED : 0u;
 	for (uint k = 0u; k < 3u; k++) {
 		uint corner = flipped && k > 0u ? 3u - k : k;
-		result.v[k] = world_from_local(instances[surface.instance], positions[triangle.vertex[corner]]);
+		vec3 position_m = world_from_local(instances[surface.instance], positions[triangle.vertex[corner]]);
+		world_triangles[i * 3u + k] = vec4(position_m, k == 0u ? uintBitsToFloat(flags) : 0.0);
 	}
-	result.flags = face_from_normal(world_normal_from_cells(constants.cascade, front));
-	result.flags |= (material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u ? WORLD_TRIANGLE_DOUBLE_SIDED : 0u;
-	result.flags |= is_alpha_tested(material) ? WORLD_TRIANGLE_ALPHA_TESTED : 0u;
-	world_triangles[i] = result;
 }

@@ -57,10 +57,7 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 		if (!passed && bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
 			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
 			if (cell_is_listed(cell)) {
-				float met;
-				uint face;
-				meet_triangles(cascade, cell, now, from_m, to_m - from_m, vec2(0.0, 1.0), met, face);
-				if (met >= 0.0) {
+				if (crosses_triangles(cascade, cell, now, from_m, to_m)) {
 					return false;
 				}
 				passed = true;

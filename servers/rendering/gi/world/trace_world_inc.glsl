@@ -121,28 +121,30 @@ bool cell_is_listed(WorldCell cell) {
 	return cell.triangles != WORLD_NOT_LISTED;
 }
 
-WorldTriangle listed_triangle(WorldCell cell, uint i) {
-	count_fetch(4u);
-	count_fetch(40u);
-	return world_triangles[world_cell_triangles[(cell.triangles >> 6) + i]];
-}
-
-// Where the line o + t * d meets a triangle that is grown by `growth` at its edges; false: it does not. r_along: of d along the normal.
-bool meets_triangle(WorldTriangle triangle, vec3 o, vec3 d, float growth, out float t, out float r_along) {
-	vec3 a = triangle.v[0] - o;
-	vec3 b = triangle.v[1] - o;
-	vec3 c = triangle.v[2] - o;
+// Signed distances of a line's place on a triangle's plane from the edges, times the edges' lengths and the normal's: inside where none
+// is below -growth times these.
+bool is_in_triangle(vec3 a, vec3 b, vec3 c, vec3 n, vec3 p, float growth) {
 	vec3 ab = b - a;
 	vec3 bc = c - b;
 	vec3 ca = a - c;
-	vec3 n = cross(ab, -ca);
-	r_along = dot(n, d);
-	t = abs(r_along) > 1e-30 ? dot(n, a) / r_along : -1.0;
-	vec3 p = d * t;
-	// Distances from the edges, times the edges' lengths and the normal's.
 	vec3 inside = vec3(dot(cross(ab, p - a), n), dot(cross(bc, p - b), n), dot(cross(ca, p - c), n));
 	vec3 limit = -growth * length(n) * sqrt(vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca)));
-	return t >= 0.0 && all(greaterThanEqual(inside, limit));
+	return all(greaterThanEqual(inside, limit));
+}
+
+// Where the line o + t * d meets a listed triangle within t's range; negative: it does not. Triangles are larger by `growth` all around.
+// r_along: of d along the normal; r_flags: WORLD_TRIANGLE_*.
+float meet_triangle(uint number, vec3 o, vec3 d, vec2 range, float growth, out float r_along, out uint r_flags) {
+	count_fetch(WORLD_TRIANGLE_BYTES);
+	vec4 first = world_triangles[number * 3u];
+	vec3 a = first.xyz - o;
+	vec3 b = world_triangles[number * 3u + 1u].xyz - o;
+	vec3 c = world_triangles[number * 3u + 2u].xyz - o;
+	r_flags = floatBitsToUint(first.w);
+	vec3 n = cross(b - a, c - a);
+	r_along = dot(n, d);
+	float t = abs(r_along) > 1e-30 ? dot(n, a) / r_along : -1.0;
+	return t >= max(range.x, 0.0) && t <= range.y && is_in_triangle(a, b, c, n, d * t, growth) ? t : -1.0;
 }
 
 float triangle_growth_m(uint cascade) {
@@ -156,34 +158,51 @@ bool is_solid_in_cell(uint cascade, WorldCell cell, ivec3 at, vec3 position_m) {
 	return bit_is_set(cell.bits, s.x + 4u * s.y + 16u * s.z);
 }
 
-// The nearest of a listed cell's triangles that the ray meets between two ways; `at` is the cell, world-fixed. r_way_m: the way to it, or
-// negative.
-void meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out float r_way_m, out uint r_face) {
+// The nearest of a listed cell's triangles that the ray meets between two ways; `at` is the cell, world-fixed. Returns the way to it, or a
+// negative number.
+float meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out uint r_face) {
 	float growth = triangle_growth_m(cascade);
+	uint first = cell.triangles >> 6;
 	uint count = cell.triangles & 63u;
 	uint nearest = 0xFFFFFFFFu;
-	r_way_m = -1.0;
+	float way_m = -1.0;
 	r_face = HIT_BACK;
 	for (uint i = 0u; i < count; i++) {
-		uint number = world_cell_triangles[(cell.triangles >> 6) + i];
-		WorldTriangle triangle = world_triangles[number];
-		count_fetch(44u);
-		float t;
+		count_fetch(4u);
+		uint number = world_cell_triangles[first + i];
 		float along;
-		if (!meets_triangle(triangle, origin_m, d, growth, t, along) || t < between_m.x || t > between_m.y) {
+		uint flags;
+		float t = meet_triangle(number, origin_m, d, between_m, growth, along, flags);
+		// Of equally near ones the first by number: the list's order doesn't matter.
+		if (t < 0.0 || (t == way_m && number > nearest)) {
 			continue;
 		}
-		if (r_way_m >= 0.0 && (t > r_way_m || (t == r_way_m && number > nearest))) {
+		if ((flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
 			continue;
 		}
-		if ((triangle.flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
-			continue;
-		}
-		r_way_m = t;
+		between_m.y = t;
+		way_m = t;
 		nearest = number;
-		uint front = triangle.flags & WORLD_TRIANGLE_FACE;
-		r_face = along < 0.0 ? front : ((triangle.flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+		uint front = flags & WORLD_TRIANGLE_FACE;
+		r_face = along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
 	}
+	return way_m;
+}
+
+// Does the stretch from `from_m` to `to_m` cross any of a listed cell's triangles?
+bool crosses_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 from_m, vec3 to_m) {
+	float growth = triangle_growth_m(cascade);
+	uint first = cell.triangles >> 6;
+	uint count = cell.triangles & 63u;
+	bool crosses = false;
+	for (uint i = 0u; i < count && !crosses; i++) {
+		count_fetch(4u);
+		float along;
+		uint flags;
+		float t = meet_triangle(world_cell_triangles[first + i], from_m, to_m - from_m, vec2(0.0, 1.0), growth, along, flags);
+		crosses = t >= 0.0 && ((flags & WORLD_TRIANGLE_ALPHA_TESTED) == 0u || is_solid_in_cell(cascade, cell, at, mix(from_m, to_m, t)));
+	}
+	return crosses;
 }
 
 // Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in metres to
@@ -312,7 +331,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 					// As far beyond the cell as its list reaches.
 					float growth = triangle_growth_m(cascade);
 					vec2 between_m = vec2(t - growth, min(walk_leaves(walk) + growth, t_max_m));
-					meet_triangles(cascade, cell, walk.at + c.origin_cells, origin_m, d, between_m, result.t_m, result.face);
+					result.t_m = meet_triangles(cascade, cell, walk.at + c.origin_cells, origin_m, d, between_m, result.face);
 					result.hit = result.t_m >= 0.0;
 				}
 			} else if (index == WORLD_LOST_CELL) {

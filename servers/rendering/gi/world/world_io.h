@@ -27,7 +27,7 @@
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
 #define WORLD_CELL_TRIANGLES 28 // uint: a triangle of a listed cell, an index into WORLD_TRIANGLES
-#define WORLD_TRIANGLES 29 // WorldTriangle
+#define WORLD_TRIANGLES 29 // vec4, three a triangle: its corners in metres, its front counterclockwise; w of the first: WORLD_TRIANGLE_* as bits
 #define WORLD_FETCH_COUNTS 35 // FetchCounts a pass (fetch_counts_inc.glsl)
 
 #define COUNT_FETCHES_ID 0 // specialisation constant
@@ -37,11 +37,12 @@
 #define WORLD_CELL_FLAT 0x80000000u
 
 // A cell that at most this many triangles touch lists them: rays meet the triangles themselves there, not the solid bits.
-#define WORLD_LISTED_TRIANGLES 32u
+#define WORLD_LISTED_TRIANGLES 62u
 #define WORLD_NOT_LISTED 0xFFFFFFFFu
 // Triangles are this much larger for rays, in cells: what is cracked by less is closed. As much as coverage is grown, so that lists are complete.
 #define WORLD_TRIANGLE_GROWTH_CELLS (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
-// WorldTriangle::flags
+#define WORLD_TRIANGLE_BYTES 48
+// The lowest bits: the face that the front mostly looks at.
 #define WORLD_TRIANGLE_FACE 7u
 #define WORLD_TRIANGLE_DOUBLE_SIDED 8u
 #define WORLD_TRIANGLE_ALPHA_TESTED 16u // only where a solid bit is set
@@ -89,11 +90,6 @@ struct WorldCell {
 	uvec2 bits; // sub-voxel x + 4 y + 16 z
 	uint records; // flat << 31 | index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
 	uint triangles; // index of the first in WORLD_CELL_TRIANGLES << 6 | count, or WORLD_NOT_LISTED: more than fit, the bits decide
-};
-// A triangle in metres, its front counterclockwise.
-struct WorldTriangle {
-	vec3 v[3];
-	uint flags; // WORLD_TRIANGLE_*, the lowest bits the face that its front mostly looks at
 };
 struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
@@ -155,7 +151,6 @@ INTEROP_SIZE(GiCascade, 24)
 INTEROP_SIZE(GiWorldParams, 220)
 INTEROP_SIZE(NearBrickHeader, 16)
 INTEROP_SIZE(WorldCell, 16)
-INTEROP_SIZE(WorldTriangle, 40)
 INTEROP_SIZE(WorldRecord, 24)
 INTEROP_SIZE(RecordAccumulator, 56)
 #endif

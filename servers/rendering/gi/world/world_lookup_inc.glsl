@@ -20,8 +20,8 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer Worl
 layout(set = 0, binding = WORLD_BINDING(WORLD_CELL_TRIANGLES), scalar) readonly buffer WorldCellTrianglesBlock {
 	uint world_cell_triangles[];
 };
-layout(set = 0, binding = WORLD_BINDING(WORLD_TRIANGLES), scalar) readonly buffer WorldTrianglesBlock {
-	WorldTriangle world_triangles[];
+layout(set = 0, binding = WORLD_BINDING(WORLD_TRIANGLES), std430) readonly buffer WorldTrianglesBlock {
+	vec4 world_triangles[];
 };
 
 #define WORLD_NO_CELL 0xFFFFFFFFu
