@@ -26,7 +26,7 @@ RULES = [
     ("scene data", r"servers/rendering/render_scene\.(h|cpp)$", ["core", "settings"]),
     (
         "device scene",
-        r"servers/rendering/(gpu_\w+|gi_reflectance|render_origin|scene_cull|range_allocator|mesh_attributes|texture_mips)\.(h|cpp)$",
+        r"servers/rendering/(gpu_\w+|brdf_table|gi_reflectance|render_origin|scene_cull|range_allocator|mesh_attributes|texture_mips)\.(h|cpp)$",
         ["core", "device", "driver interface", "settings", "shared shaders", "scene data"],
     ),
     ("passes", r"servers/rendering/passes/", ["core", "device", "driver interface", "settings", "shared shaders", "scene data", "device scene", "gi shader interface"]),

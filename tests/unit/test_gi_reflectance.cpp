@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/reference/brdf.h"
+#include "servers/rendering/shaders/brdf.h"
 #include "servers/rendering/gi_reflectance.h"
 
 #include <doctest/doctest.h>

@@ -15,7 +15,7 @@ layout(location = 0) out vec4 out_color;
 GiLight surface_gi(Surface s) {
 #ifdef TRANSPARENT_GI
 	// A surface without a specular lobe asks for no radiance, as in the prepass.
-	GiSample gi = gi_sample(s.position, s.normal, s.view, s.f90 > 0.0 ? s.roughness : GI_NO_SPECULAR);
+	GiSample gi = gi_sample(s.position, s.normal, s.view, s.lobes.f90 > 0.0 ? s.roughness : GI_NO_SPECULAR);
 	float weight = max(gi.weight, 1e-6);
 	return GiLight(vec4(gi.irradiance / weight, gi.weight), vec4(gi.radiance / weight, gi.weight));
 #else
