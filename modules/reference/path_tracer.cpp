@@ -169,7 +169,7 @@ struct PathTracer::Impl {
 		return !stopped;
 	}
 
-	static PathTracerResult develop(const Film &p_film) {
+	PathTracerResult develop(const Film &p_film) const {
 		PathTracerResult result;
 		result.width = p_film.settings.width;
 		result.height = p_film.settings.height;
@@ -179,7 +179,7 @@ struct PathTracer::Impl {
 		for (const PixelSums &pixel : p_film.pixels) {
 			const double n = std::max(1u, pixel.count);
 			const glm::dvec3 mean = pixel.sum / n;
-			put(result.radiance, mean);
+			put(result.radiance, world.lights.has_negative_lamps() ? glm::max(mean, glm::dvec3(0.0)) : mean);
 			put(result.variance, glm::max(pixel.square / n - mean * mean, glm::dvec3(0.0)) / std::max(n - 1.0, 1.0));
 			result.spp = std::min(result.spp, pixel.count);
 			result.untraced_pixels += pixel.count == 0;
@@ -254,7 +254,7 @@ Result<PathTracerResult> PathTracer::render(const PathTracerSettings &p_settings
 		}
 		pass = uint32_t(std::clamp(budget / per_sample, 1.0, 256.0));
 	}
-	PathTracerResult result = Impl::develop(*film);
+	PathTracerResult result = impl->develop(*film);
 	result.seconds = seconds_since(start);
 	return result;
 }

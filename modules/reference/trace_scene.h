@@ -2,11 +2,11 @@
 #pragma once
 // A scenario flattened for tracing: one Embree geometry for each surface of each visible instance, in world space.
 
-#include "servers/rendering/shaders/brdf.h"
 #include "modules/reference/texel_group.h"
 #include "servers/core/error.h"
 #include "servers/rendering/render_scene.h"
 
+#include "servers/rendering/shaders/brdf.h"
 #include <memory>
 #include <vector>
 

@@ -111,7 +111,10 @@ TEST_CASE("path tracer: lamps have Godot's units and attenuation") {
 			const double angle = degrees * PI / 180.0;
 			const Vector3 back(float(std::sin(angle)), float(std::cos(angle)), 0);
 			const InstanceRid instance = test.add_light(light, { Basis(Vector3(0, 0, 1), glm::cross(back, Vector3(0, 0, 1)), back), Vector3(0, 1.0f, 0) });
-			const double rim = std::max(1e-3, (1 - std::cos(angle)) / (1 - std::cos(PI / 6)));
+			// Godot's: the exponent is the property's inverse.
+			light.spot_attenuation = degrees == 15.0f ? 0.5f : 1.0f;
+			test.scene.lights.get(test.scene.instances.get(instance)->light)->spot_attenuation = light.spot_attenuation;
+			const double rim = std::pow(std::max(1e-4, (1 - std::cos(angle)) / (1 - std::cos(PI / 6))), 1.0 / light.spot_attenuation);
 			CHECK(estimate(test.render(settings(4))).mean == doctest::Approx(0.5 * 2.0 * std::max(0.0, 1.0 - rim)).epsilon(0.01));
 			test.scene.instances.free(instance);
 		}
@@ -172,6 +175,7 @@ TEST_CASE("path tracer: a big emissive sphere and a sky of its colour light alik
 TEST_CASE("path tracer: intervals hold the truth as often as they say") {
 	TraceTestScene test;
 	test.add_mesh(TraceTestScene::square(5.0f), TraceTestScene::lambertian(Vector3(0.5f)));
+	CHECK(pictures[0] == pictures[1]);
 	Material light = TraceTestScene::lambertian(Vector3(0.0f));
 	light.emission = Vector3(3.0f);
 	test.add_mesh(TraceTestScene::square(0.5f), light, TraceTestScene::upside_down(Vector3(0, 1.0f, 0)));

@@ -5,6 +5,7 @@
 #define SHADING_INC
 #include "servers/rendering/passes/material_inc.glsl"
 #include "servers/rendering/shaders/brdf_inc.glsl"
+#include "servers/rendering/shaders/light_falloff_inc.glsl"
 #include "servers/rendering/shaders/octahedral_inc.glsl"
 
 layout(set = 0, binding = RASTER_FRAME, scalar) uniform Frame { FrameData frame; };
@@ -72,13 +73,9 @@ vec3 shade_positional(Surface s, uint index) {
 		return vec3(0.0);
 	}
 	vec3 to_light = offset / max(distance_m, 1e-6);
-	float ratio = distance_m / light.range;
-	float window = max(1.0 - ratio * ratio * ratio * ratio, 0.0);
-	float attenuation = window * window * pow(max(distance_m, 1e-4), -light.attenuation);
+	float attenuation = light_distance_falloff(distance_m, light.range, light.attenuation);
 	if (light.type == LIGHT_TYPE_SPOT) {
-		float cosine = max(dot(-to_light, light.direction), light.spot_cos);
-		float rim = max(1e-3, (1.0 - cosine) / max(1.0 - light.spot_cos, 1e-6));
-		attenuation *= max(1.0 - pow(rim, light.spot_attenuation), 0.0);
+		attenuation *= light_cone_falloff(dot(-to_light, light.direction), light.spot_cos, light.spot_exponent);
 	}
 	vec3 reflected = reflect_light(s, to_light, light.specular) * attenuation;
 	if (light.shadow_index >= 0 && dot(reflected, vec3(1.0)) > 0.0) {

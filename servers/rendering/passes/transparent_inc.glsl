@@ -37,7 +37,7 @@ void main() {
 		Lighting lighting = shade(s, gl_FragCoord.xy, surface_gi(s));
 		color = lighting.direct + lighting.indirect_diffuse + lighting.indirect_specular + s.emission;
 	}
-	out_color = vec4(clamp(color, vec3(-65000.0), vec3(65000.0)), alpha * v_opacity);
+	out_color = vec4(clamp(color, vec3(0.0), vec3(65000.0)), alpha * v_opacity);
 }
 
 #endif
