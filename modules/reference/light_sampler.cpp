@@ -42,7 +42,7 @@ void estimate_emission(const TraceScene &p_trace, uint32_t p_surface, uint32_t p
 
 } // namespace
 
-LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace) {
+LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, const RenderOrigin &p_origin, TraceScene &r_trace) {
 	std::vector<double> weights;
 	for (uint32_t i = 0; i < r_trace.surfaces.size(); i++) {
 		if (r_trace.material_of(i).emissive) {
@@ -61,7 +61,7 @@ LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, T
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
 		const Light *light = p_scene.lights.get(p_instance.light);
 		if (light && p_instance.scenario == p_scenario && p_instance.visible) {
-			add_lamp(*light, p_instance.transform);
+			add_lamp(*light, p_origin.render_from_world(p_instance.transform));
 		}
 	});
 }

@@ -29,7 +29,7 @@ class LightSampler {
 public:
 	LightSampler() = default;
 	// Sets first_emitter of r_trace's surfaces.
-	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace);
+	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, const RenderOrigin &p_origin, TraceScene &r_trace);
 
 	bool has_emitters() const { return !emitters.empty(); }
 	bool has_negative_lamps() const { return negative; }

@@ -211,13 +211,18 @@ Result<std::unique_ptr<PathTracer>> PathTracer::create(const RenderScene &p_scen
 		return make_error("path tracer: the {} does not exist", camera ? "scenario" : "camera");
 	}
 	auto impl = std::make_unique<Impl>();
-	Result<std::unique_ptr<TraceScene>> scene = TraceScene::create(p_scene, p_scenario, *camera);
+	// Where the raster frame of this camera has its origin, so that both see the same coordinates.
+	RenderOrigin origin;
+	const Environment *environment = p_scene.find_environment(*p_scene.scenarios.get(p_scenario), *camera);
+	origin.follow(camera->transform.origin, environment ? environment->sdfgi : SdfgiSettings());
+	Result<std::unique_ptr<TraceScene>> scene = TraceScene::create(p_scene, p_scenario, *camera, origin);
 	if (!scene) {
 		return scene.error();
 	}
 	impl->world.camera = *camera;
+	impl->world.camera.transform = origin.render_from_world(camera->transform);
 	impl->world.scene = scene.take();
-	impl->world.lights = LightSampler(p_scene, p_scenario, *impl->world.scene);
+	impl->world.lights = LightSampler(p_scene, p_scenario, origin, *impl->world.scene);
 	impl->world.sky = TraceSky(p_scene, p_scenario, *camera);
 	return std::unique_ptr<PathTracer>(new PathTracer(std::move(impl)));
 }

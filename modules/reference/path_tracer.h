@@ -10,6 +10,7 @@
 //     and bake_mode apply;
 //   - negative lamps: a pixel's mean is at least 0, and so is the sum of all lamps where light bounces;
 //   - occlusion textures, ambient colours and read_sky_light are approximations of transport and are ignored;
+//   - coordinates are relative to the RenderOrigin of the frame that the camera would draw;
 //   - textures are read at level 0, bilinear unless the filter is nearest.
 
 #include "servers/core/error.h"

@@ -374,6 +374,8 @@ struct RenderScene {
 
 	// The material that draws surface p_surface of p_instance: override, surface override, the mesh's own, or null (default material).
 	const Material *surface_material(const Instance &p_instance, const Mesh &p_mesh, uint32_t p_surface) const;
+	// The camera's environment, the scenario's, its fallback, or null.
+	const Environment *find_environment(const Scenario &p_scenario, const Camera &p_camera) const;
 };
 
 // The matrices of a camera for an aspect ratio (width / height). Reversed z: near is 1, far is 0; y up in clip space is handled here
