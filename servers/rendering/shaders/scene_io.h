@@ -86,9 +86,9 @@ struct LightData {
 	float attenuation; // decay exponent
 	vec3 color; // linear * energy; a Lambertian surface reflects albedo * color * cos * attenuation; negative for negative lights
 	float indirect_energy;
-	float specular;
+	float specular; // multiplies the specular lobe
 	float spot_cos; // cos(spot_angle)
-	float spot_attenuation;
+	float spot_exponent; // of light_falloff_inc.glsl
 	float angular_radius; // directional: radians
 	float size; // positional: radius of the source, m
 	float shadow_bias;
