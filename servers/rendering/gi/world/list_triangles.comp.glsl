@@ -28,6 +28,14 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	if (index >= cell_end(constants.cascade) || cell_words[index * 4u + 3u] == WORLD_NOT_LISTED) {
 		return;
 	}
+	TriangleBoxTest test = make_box_test(triangle.v, 0.5, CELL_TOUCH);
+	uint octants = 0u;
+	for (uint i = 0u; i < 8u; i++) {
+		vec3 low = vec3(cell) + 0.5 * vec3(float(i & 1u), float((i >> 1) & 1u), float(i >> 2));
+		octants |= touches_box(test, low - CELL_TOUCH) ? 1u << i : 0u;
+	}
+	// Rounding must not lose a triangle that touches the cell.
+	octants = octants == 0u ? 255u : octants;
 	uint list = atomicAdd(cell_words[index * 4u + 3u], 1u);
-	cell_triangles[(list >> 6) + (list & 63u)] = triangle.world_triangle;
+	cell_triangles[(list >> 6) + (list & 63u)] = triangle.world_triangle | (octants << WORLD_TRIANGLE_NUMBER_BITS);
 }

@@ -51,7 +51,7 @@ uint find_start(uint cascade, vec3 position_m, vec3 normal, bool is_exact) {
 	return is_exact ? min((steps + 1u) / 2u, 4u) : 0u;
 }
 
-// How many of the test rays from the start end at the back of a surface.
+// How many of the test rays from the start end at the back of a surface, or within a sub-voxel: in the inside of a thin solid.
 uint backs_seen(uint cascade, WorldRecord record) {
 	vec3 normal = record_normal(record);
 	vec3 start_m = record_start_m(record);
@@ -62,8 +62,11 @@ uint backs_seen(uint cascade, WorldRecord record) {
 		if (!hit.hit || hit.cell >= WORLD_LOST_CELL) {
 			continue;
 		}
+		if (hit.face == HIT_BACK || hit.t_m < sub_voxel_along_m(cascade, direction)) {
+			backs++;
+			continue;
+		}
 		if (hit.face != HIT_BITS) {
-			backs += hit.face == HIT_BACK ? 1u : 0u;
 			continue;
 		}
 		uint packed_records = world_cells[hit.cell].records;
@@ -97,8 +100,8 @@ bool move_to_column(inout WorldRecord record, uint column) {
 	return true;
 }
 
-// Puts a record's place onto the nearest of its triangles along its axis, in a cell that lists them; false: there is none. The mean of two
-// surfaces lies on neither.
+// Puts a record's place onto the outermost of its triangles along its axis, in a cell that lists them; false: there is none. The mean of two
+// surfaces lies on neither, and the inner ones are the insides of solids more often than not.
 bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
 	uint cascade = record_cascade(record);
 	uint axis = record_face(record) >> 1;
@@ -110,23 +113,22 @@ bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
 	low_m = (vec3(at) + low_m) * cell_m;
 	vec3 d = vec3(0.0);
 	d[axis] = cell_m[axis];
-	float nearest = 1e9;
-	float found = 0.0;
+	bool upwards = (record_face(record) & 1u) == 0u;
+	float outermost = -1e9;
 	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
 		float along;
 		uint flags;
-		float t = meet_triangle(world_cell_triangles[(cell.triangles >> 6) + i], low_m - d * 0.001, d, vec2(0.0, 1.002), triangle_growth_m(cascade), along, flags);
+		float t = meet_triangle(world_cell_triangles[(cell.triangles >> 6) + i] & WORLD_TRIANGLE_NUMBER_MASK, low_m - d * 0.001, d, vec2(0.0, 1.002), triangle_growth_m(cascade), along, flags);
 		uint front = flags & WORLD_TRIANGLE_FACE;
 		bool shows = front == record_face(record) || ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u && (front ^ 1u) == record_face(record));
-		if (t >= 0.0 && shows && abs(t - 0.001 - place[axis]) < nearest) {
-			nearest = abs(t - 0.001 - place[axis]);
-			found = t - 0.001;
+		if (t >= 0.0 && shows) {
+			outermost = max(outermost, upwards ? t - 0.001 : 0.001 - t);
 		}
 	}
-	if (nearest > 1.0) {
+	if (outermost < -2.0) {
 		return false;
 	}
-	place[axis] = clamp(found, 0.0, 1.0);
+	place[axis] = clamp(abs(outermost), 0.0, 1.0);
 	uvec3 p = uvec3(place * 511.0 + 0.5);
 	record.position = p.x | (p.y << 9) | (p.z << 18);
 	return true;

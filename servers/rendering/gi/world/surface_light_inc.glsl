@@ -44,23 +44,24 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	ivec3 cell_at = ivec3(0x7FFFFFFF);
 	WorldCell cell = WorldCell(uvec2(0u), 0u, WORLD_NOT_LISTED);
 	float t = 0.0;
-	bool passed = false; // the triangles of the present cell
+	uint passed = 0u; // octants of the present cell whose triangles the way does not cross
 	for (uint i = 0u; i < SHORT_WAY_MAX_STEPS; i++) {
 		ivec3 now = walk.at >> 2;
 		if (now != cell_at) {
 			cell_at = now;
-			passed = false;
+			passed = 0u;
 			cell = WORLD_CELL_ON_WAY(cascade, now);
 		}
 		float t_leave = walk_leaves(walk);
 		uvec3 local = uvec3(walk.at) & 3u;
-		if (!passed && bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
+		uint octant = octant_of_sub_voxel(ivec3(local));
+		if ((passed & octant) == 0u && bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
 			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
 			if (cell_is_listed(cell)) {
-				if (crosses_triangles(cascade, cell, now, from_m, to_m)) {
+				if (crosses_triangles(cascade, cell, octant, now, from_m, to_m)) {
 					return false;
 				}
-				passed = true;
+				passed |= octant;
 			} else if (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(now), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(now))) {
 				return false;
 			}
@@ -143,6 +144,17 @@ bool has_several(uint faces) {
 	return (faces & (faces - 1u)) != 0u;
 }
 
+// Where neighbours are looked for from: off the met surface, as far as a free way leads, since more can be seen from there.
+vec3 lifted_point(HitQuery query) {
+	vec3 normal = -query.direction;
+	if (query.hit.face != HIT_BITS) {
+		normal = vec3(0.0);
+		normal[query.hit.face >> 1] = (query.hit.face & 1u) == 0u ? 1.0 : -1.0;
+	}
+	vec3 lifted_m = query.free_m + normal * (1.5 * sub_voxel_along_m(query.hit.cascade, normal));
+	return short_way_is_free(query.hit.cascade, query.free_m, lifted_m) ? lifted_m : query.free_m;
+}
+
 // Of 3 x 3 x 3 cells.
 ivec3 neighbour_offset(uint i) {
 	return ivec3(int(i % 3u), int((i / 3u) % 3u), int(i / 9u)) - 1;
@@ -177,6 +189,7 @@ uint pick_record(WorldHit hit, vec3 direction, uint seed) {
 		return picked;
 	}
 	query.asks_ways = true;
+	query.free_m = lifted_point(query);
 	query.least_facing = -0.5;
 	for (uint i = 0u; i < 27u; i++) {
 		picked = pick_in_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)).records, seed, weight_sum, picked);
@@ -211,6 +224,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction) {
 		return sum.rgb / sum.w;
 	}
 	query.asks_ways = true;
+	query.free_m = lifted_point(query);
 	query.least_facing = -0.5;
 	for (uint i = 0u; i < 27u; i++) {
 		sum += light_of_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)));

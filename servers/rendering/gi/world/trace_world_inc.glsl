@@ -158,9 +158,16 @@ bool is_solid_in_cell(uint cascade, WorldCell cell, ivec3 at, vec3 position_m) {
 	return bit_is_set(cell.bits, s.x + 4u * s.y + 16u * s.z);
 }
 
-// The nearest of a listed cell's triangles that the ray meets between two ways; `at` is the cell, world-fixed. Returns the way to it, or a
-// negative number.
-float meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out uint r_face) {
+#define WORLD_TRIANGLE_NUMBER_MASK ((1u << WORLD_TRIANGLE_NUMBER_BITS) - 1u)
+
+// Bit of the octant that a sub-voxel (0..3) lies in.
+uint octant_of_sub_voxel(ivec3 at) {
+	return 1u << uint((at.x >> 1) + 2 * (at.y >> 1) + 4 * (at.z >> 1));
+}
+
+// The nearest of a listed cell's triangles that the ray meets between two ways, of those that touch `octants`; `at` is the cell, world-fixed.
+// Returns the way to it, or a negative number.
+float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out uint r_face) {
 	float growth = triangle_growth_m(cascade);
 	uint first = cell.triangles >> 6;
 	uint count = cell.triangles & 63u;
@@ -169,7 +176,11 @@ float meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3
 	r_face = HIT_BACK;
 	for (uint i = 0u; i < count; i++) {
 		count_fetch(4u);
-		uint number = world_cell_triangles[first + i];
+		uint listed = world_cell_triangles[first + i];
+		if (((listed >> WORLD_TRIANGLE_NUMBER_BITS) & octants) == 0u) {
+			continue;
+		}
+		uint number = listed & WORLD_TRIANGLE_NUMBER_MASK;
 		float along;
 		uint flags;
 		float t = meet_triangle(number, origin_m, d, between_m, growth, along, flags);
@@ -189,32 +200,48 @@ float meet_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 origin_m, vec3
 	return way_m;
 }
 
-// Does the stretch from `from_m` to `to_m` cross any of a listed cell's triangles?
-bool crosses_triangles(uint cascade, WorldCell cell, ivec3 at, vec3 from_m, vec3 to_m) {
+// Does the stretch from `from_m` to `to_m` cross any of a listed cell's triangles that touch `octants`?
+bool crosses_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 from_m, vec3 to_m) {
 	float growth = triangle_growth_m(cascade);
 	uint first = cell.triangles >> 6;
 	uint count = cell.triangles & 63u;
 	bool crosses = false;
 	for (uint i = 0u; i < count && !crosses; i++) {
 		count_fetch(4u);
+		uint listed = world_cell_triangles[first + i];
+		if (((listed >> WORLD_TRIANGLE_NUMBER_BITS) & octants) == 0u) {
+			continue;
+		}
 		float along;
 		uint flags;
-		float t = meet_triangle(world_cell_triangles[first + i], from_m, to_m - from_m, vec2(0.0, 1.0), growth, along, flags);
+		float t = meet_triangle(listed & WORLD_TRIANGLE_NUMBER_MASK, from_m, to_m - from_m, vec2(0.0, 1.0), growth, along, flags);
 		crosses = t >= 0.0 && ((flags & WORLD_TRIANGLE_ALPHA_TESTED) == 0u || is_solid_in_cell(cascade, cell, at, mix(from_m, to_m, t)));
 	}
 	return crosses;
 }
 
 // Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in metres to
-// the first solid one, in a flat cell that isn't listed to the surface, or a negative number.
-float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
+// the first solid one, in a flat cell that isn't listed to the surface, or a negative number. r_octants: in a listed cell those of all solid
+// sub-voxels on the way.
+float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max, out uint r_octants) {
 	ivec3 direction_sign = ivec3(sign(rate));
 	GridWalk walk;
 	walk.at = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - entry) * inverse_rate;
-	bool by_planes = (cell.records & WORLD_CELL_FLAT) != 0u && !cell_is_listed(cell);
-	float t = 0.0;
+	r_octants = 0u;
 	bool inside = true;
+	if (cell_is_listed(cell)) {
+		for (uint i = 0u; i < 12u && inside; i++) {
+			bool solid = bit_is_set(cell.bits, uint(walk.at.x + 4 * walk.at.y + 16 * walk.at.z));
+			r_octants |= solid ? octant_of_sub_voxel(walk.at) : 0u;
+			inside = walk_leaves(walk) <= t_max;
+			walk_on(walk, inverse_rate, direction_sign);
+			inside = inside && !is_outside(walk.at, 4);
+		}
+		return r_octants != 0u ? 0.0 : -1.0;
+	}
+	bool by_planes = (cell.records & WORLD_CELL_FLAT) != 0u;
+	float t = 0.0;
 	for (uint tests = 0u; tests < 12u && inside; tests++) {
 		bool solid = false;
 		for (uint i = 0u; i < 12u && inside && !solid; i++) {
@@ -323,7 +350,8 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			if (index < WORLD_LOST_CELL) {
 				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
 				WorldCell cell = stored_cell(index);
-				float way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+				uint octants;
+				float way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t, octants);
 				result.hit = way >= 0.0;
 				result.t_m = t + way;
 				result.face = HIT_BITS;
@@ -331,7 +359,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 					// As far beyond the cell as its list reaches.
 					float growth = triangle_growth_m(cascade);
 					vec2 between_m = vec2(t - growth, min(walk_leaves(walk) + growth, t_max_m));
-					result.t_m = meet_triangles(cascade, cell, walk.at + c.origin_cells, origin_m, d, between_m, result.face);
+					result.t_m = meet_triangles(cascade, cell, octants, walk.at + c.origin_cells, origin_m, d, between_m, result.face);
 					result.hit = result.t_m >= 0.0;
 				}
 			} else if (index == WORLD_LOST_CELL) {

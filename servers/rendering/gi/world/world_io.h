@@ -26,7 +26,7 @@
 #define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: radiance that it reflects of all light; irradiance / pi of all light but lamps'
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
-#define WORLD_CELL_TRIANGLES 28 // uint: a triangle of a listed cell, an index into WORLD_TRIANGLES
+#define WORLD_CELL_TRIANGLES 28 // uint: a triangle of a listed cell: its number in WORLD_TRIANGLES, above it the octants of the cell that it touches
 #define WORLD_TRIANGLES 29 // vec4, three a triangle: its corners in metres, its front counterclockwise; w of the first: WORLD_TRIANGLE_* as bits
 #define WORLD_FETCH_COUNTS 35 // FetchCounts a pass (fetch_counts_inc.glsl)
 
@@ -42,6 +42,7 @@
 // Triangles are this much larger for rays, in cells: what is cracked by less is closed. As much as coverage is grown, so that lists are complete.
 #define WORLD_TRIANGLE_GROWTH_CELLS (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
 #define WORLD_TRIANGLE_BYTES 48
+#define WORLD_TRIANGLE_NUMBER_BITS 24
 // The lowest bits: the face that the front mostly looks at.
 #define WORLD_TRIANGLE_FACE 7u
 #define WORLD_TRIANGLE_DOUBLE_SIDED 8u
