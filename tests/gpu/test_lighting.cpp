@@ -136,13 +136,13 @@ TEST_CASE_FIXTURE(GpuFixture, "lighting: dielectrics and metals under a lamp are
 	light.attenuation = 2.0f;
 	light.energy = 10.0f;
 	stage.add_light(stage.server.omni_light_create(), light, { Basis(1.0f), Vector3(1.5f, 2.0f, 3.0f) });
-	check_materials(stage, 16);
+	check_materials(stage, 192);
 }
 
 TEST_CASE_FIXTURE(GpuFixture, "lighting: dielectrics and metals under a white sky are the path tracer's within 1 %") {
 	SphereStage stage(device());
 	stage.set_sky(1.0f);
-	check_materials(stage, 64);
+	check_materials(stage, 192);
 }
 
 TEST_CASE_FIXTURE(GpuFixture, "lighting: a spot's cone and its highlight are the path tracer's within 1 %") {
@@ -188,7 +188,7 @@ struct Rooms {
 		settings.cascades = 1;
 		settings.grid_size_cells = 64;
 		settings.min_cell_size_m = 0.125f;
-		settings.frames_to_converge = 8;
+		settings.frames_to_converge = 4;
 		server.environment_set_sdfgi(environment, settings);
 		server.environment_set_background(environment, BackgroundMode::COLOR);
 		server.environment_set_bg_color(environment, Vector3(0.0f));
