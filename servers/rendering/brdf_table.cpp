@@ -9,30 +9,33 @@
 namespace lucent {
 
 namespace {
-// Half-way vectors by D n.h (Karis 2013): each weighs V 4 n.l v.h / n.h. The lobe is symmetric, so half a turn is enough.
+// Over visible normals (Heitz, JCGT 7(4) 2018), each of which weighs G2 / G1 = 2 V n.l (n.v + root). Half of them: the lobe is symmetric.
 Vector2 integrate(float p_n_dot_v, float p_roughness) {
-	constexpr uint32_t HEIGHTS = 48;
-	constexpr uint32_t TURNS = 16;
+	constexpr uint32_t SAMPLES = 512;
 	const float alpha = p_roughness * p_roughness;
 	const Vector3 view(std::sqrt(1.0f - p_n_dot_v * p_n_dot_v), 0.0f, p_n_dot_v);
+	const Vector3 stretched = glm::normalize(Vector3(alpha * view.x, 0.0f, view.z));
+	const Vector3 across(-stretched.z, 0.0f, stretched.x);
+	const float middle = 0.5f * (1.0f + stretched.z);
+	const float root = std::sqrt(p_n_dot_v * p_n_dot_v * (1.0f - alpha * alpha) + alpha * alpha);
 	Vector2 sum(0.0f);
-	for (uint32_t i = 0; i < HEIGHTS; i++) {
-		const float u = (float(i) + 0.5f) / HEIGHTS;
-		const float cosine = std::sqrt((1.0f - u) / (1.0f + (alpha * alpha - 1.0f) * u));
-		const float sine = std::sqrt(std::max(1.0f - cosine * cosine, 0.0f));
-		for (uint32_t k = 0; k < TURNS; k++) {
-			const float phi = BRDF_PI * (float(k) + 0.5f) / TURNS;
-			const Vector3 halfway(sine * std::cos(phi), sine * std::sin(phi), cosine);
-			const float v_dot_h = glm::dot(view, halfway);
-			const float n_dot_l = 2.0f * v_dot_h * cosine - p_n_dot_v;
-			if (v_dot_h > 0.0f && n_dot_l > 0.0f) {
-				const float weight = brdf::brdf_visibility_smith(n_dot_l, p_n_dot_v, alpha) * 4.0f * n_dot_l * v_dot_h / cosine;
-				const float edge = brdf::brdf_fresnel_schlick(Vector3(0.0f), 1.0f, v_dot_h).x;
-				sum += Vector2(1.0f - edge, edge) * weight;
-			}
+	for (uint32_t i = 0; i < SAMPLES; i++) {
+		// Each has a radius of its own: what the lobe's tail sends below the horizon is within the last few of them.
+		const float radius = std::sqrt((float(i) + 0.5f) / SAMPLES);
+		const float phi = BRDF_PI * (glm::fract(float(i) * 0.61803399f) - 0.5f);
+		const float side = radius * std::cos(phi);
+		const float up = (1.0f - middle) * std::sqrt(1.0f - side * side) + middle * radius * std::sin(phi);
+		const Vector3 facet = Vector3(0.0f, side, 0.0f) + across * up + stretched * std::sqrt(std::max(1.0f - side * side - up * up, 0.0f));
+		const Vector3 halfway = glm::normalize(Vector3(alpha * facet.x, alpha * facet.y, std::max(facet.z, 1e-6f)));
+		const float v_dot_h = glm::dot(view, halfway);
+		const float n_dot_l = 2.0f * v_dot_h * halfway.z - p_n_dot_v;
+		if (n_dot_l > 0.0f) {
+			const float weight = 2.0f * brdf::brdf_visibility_smith(n_dot_l, p_n_dot_v, alpha) * n_dot_l * (p_n_dot_v + root);
+			const float edge = brdf::brdf_fresnel_schlick(Vector3(0.0f), 1.0f, v_dot_h).x;
+			sum += Vector2(1.0f - edge, edge) * weight;
 		}
 	}
-	return sum / float(HEIGHTS * TURNS);
+	return sum / float(SAMPLES);
 }
 } // namespace
 
