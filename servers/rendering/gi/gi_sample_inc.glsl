@@ -47,9 +47,9 @@ struct GiQuery {
 	bool has_start;
 };
 
-// A point just off the surface, in a free sub-voxel, or where the cells know their surfaces at the end of a free way. The way to the eye is
+// A point just off the surface, in a free sub-voxel, or, with `ways`, where the cells know their surfaces at the end of a free way. The way to the eye is
 // free, so steps towards it stay on the surface's side.
-void find_query_start(inout GiQuery query, uint cascade) {
+void find_query_start(inout GiQuery query, uint cascade, const bool ways) {
 	float along_normal = sub_voxel_along_m(cascade, query.normal);
 	float along_view = sub_voxel_along_m(cascade, query.view);
 	query.has_start = false;
@@ -62,7 +62,7 @@ void find_query_start(inout GiQuery query, uint cascade) {
 	}
 	// Between solid sub-voxels: less and less far off.
 	vec3 near_m = query.position_m + query.normal * (0.02 * along_normal);
-	for (uint i = 0u; i < 4u && !query.has_start; i++) {
+	for (uint i = 0u; ways && i < 4u && !query.has_start; i++) {
 		query.start_m = query.position_m + query.normal * (probe_params.normal_bias * exp2(-float(i)) * along_normal);
 		query.has_start = short_way_is_free(cascade, near_m, query.start_m);
 	}
@@ -251,7 +251,10 @@ bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, c
 		if (share <= 0.0) {
 			continue;
 		}
-		find_query_start(query, cascade);
+		find_query_start(query, cascade, rays);
+		if (!query.has_start && !rays) {
+			return false;
+		}
 		vec4 records = sample_records(query, cascade);
 		vec3 irradiance = records.rgb;
 		vec3 radiance = records.rgb;

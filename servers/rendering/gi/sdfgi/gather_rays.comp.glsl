@@ -11,7 +11,7 @@ vec3 traced_reflection(vec3 position_m, vec3 normal, vec3 view) {
 		return world_sky_radiance(reflect(-view, normal));
 	}
 	GiQuery query = GiQuery(position_m, normal, view, 0.0, position_m, false);
-	find_query_start(query, cascade);
+	find_query_start(query, cascade, true);
 	vec3 direction = reflect(-view, normal);
 	WorldHit hit = trace_world(query.start_m, direction, 1e6, cascade);
 	return hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);

@@ -20,7 +20,7 @@ layout(set = 0, binding = PLACE_STARTS_COUNTS, scalar) readonly buffer CountsBlo
 	CascadeCounts counts[];
 };
 layout(set = 0, binding = PLACE_STARTS_OUT, scalar) writeonly buffer PositionsBlock {
-	uint new_positions[]; // WorldRecord.position, from the cascade's first record
+	uvec2 new_places[]; // WorldRecord.position and .area, from the cascade's first record
 };
 layout(push_constant, scalar) uniform PlacePush {
 	VoxelizeConstants constants;
@@ -100,38 +100,62 @@ bool move_to_column(inout WorldRecord record, uint column) {
 	return true;
 }
 
+// The outermost of a listed cell's triangles that show a face on the line through a place along its axis, in cells from the cell's lowest side;
+// w: how many such there are.
+vec2 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 place) {
+	uint axis = face >> 1;
+	vec3 cell_m = world.cascades[cascade].cell_m;
+	place[axis] = -0.001;
+	vec3 d = vec3(0.0);
+	d[axis] = cell_m[axis];
+	float sign_out = (face & 1u) == 0u ? 1.0 : -1.0;
+	vec2 result = vec2(0.0);
+	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
+		uint number = world_cell_triangles[(cell.triangles >> 6) + i] & WORLD_TRIANGLE_NUMBER_MASK;
+		float along;
+		uint flags;
+		float t = meet_triangle(number, (vec3(at) + place) * cell_m, d, vec2(0.0, 1.002), 0.0, along, flags);
+		uint front = flags & WORLD_TRIANGLE_FACE;
+		if (t >= 0.0 && (front == face || ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u && (front ^ 1u) == face))) {
+			result.x = result.y == 0.0 || (t - result.x - 0.001) * sign_out > 0.0 ? t - 0.001 : result.x;
+			result.y += 1.0;
+		}
+	}
+	return result;
+}
+
 // Puts a record's place onto the outermost of its triangles along its axis, in a cell that lists them; false: there is none. The mean of two
 // surfaces lies on neither, and the inner ones are the insides of solids more often than not.
 bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
-	uint cascade = record_cascade(record);
 	uint axis = record_face(record) >> 1;
-	vec3 cell_m = world.cascades[cascade].cell_m;
-	ivec3 at = record_world_cell(record);
 	vec3 place = record_position_in_cell(record);
-	vec3 low_m = place;
-	low_m[axis] = 0.0;
-	low_m = (vec3(at) + low_m) * cell_m;
-	vec3 d = vec3(0.0);
-	d[axis] = cell_m[axis];
-	bool upwards = (record_face(record) & 1u) == 0u;
-	float outermost = -1e9;
-	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
-		float along;
-		uint flags;
-		float t = meet_triangle(world_cell_triangles[(cell.triangles >> 6) + i] & WORLD_TRIANGLE_NUMBER_MASK, low_m - d * 0.001, d, vec2(0.0, 1.002), triangle_growth_m(cascade), along, flags);
-		uint front = flags & WORLD_TRIANGLE_FACE;
-		bool shows = front == record_face(record) || ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u && (front ^ 1u) == record_face(record));
-		if (t >= 0.0 && shows) {
-			outermost = max(outermost, upwards ? t - 0.001 : 0.001 - t);
-		}
-	}
-	if (outermost < -2.0) {
+	vec2 outermost = outermost_triangle(record_cascade(record), cell, record_world_cell(record), record_face(record), place);
+	if (outermost.y == 0.0) {
 		return false;
 	}
-	place[axis] = clamp(abs(outermost), 0.0, 1.0);
+	place[axis] = clamp(outermost.x, 0.0, 1.0);
 	uvec3 p = uvec3(place * 511.0 + 0.5);
 	record.position = p.x | (p.y << 9) | (p.z << 18);
 	return true;
+}
+
+// WorldRecord.area with the share of the emission that can leave the cell: of surfaces one behind the other the outermost gives light.
+uint seen_area(uint cascade, WorldRecord record) {
+	WorldCell cell = world_cells[find_cell(cascade, storage_from_world_cell(record_world_cell(record)))];
+	if (record.emission == 0u || !cell_is_listed(cell) || (cell.records & WORLD_CELL_FLAT) != 0u) {
+		return record.area;
+	}
+	uint axis = record_face(record) >> 1;
+	vec2 seen = vec2(0.0);
+	for (uint i = 0u; i < 16u; i++) {
+		vec3 place = vec3(0.0);
+		place[(axis + 1u) % 3u] = (float(i & 3u) + 0.5) / 4.0;
+		place[(axis + 2u) % 3u] = (float(i >> 2) + 0.5) / 4.0;
+		float surfaces = outermost_triangle(cascade, cell, record_world_cell(record), record_face(record), place).y;
+		seen += vec2(min(surfaces, 1.0), surfaces);
+	}
+	float share = seen.y > 0.0 ? seen.x / seen.y : 1.0;
+	return (record.area & ~255u) | uint(float(record.area & 255u) * share + 0.5);
 }
 
 uint placed(uint cascade, WorldRecord record) {
@@ -175,6 +199,7 @@ void main() {
 	uint count = min(counts[constants.cascade].records, world.record_capacity);
 	uint stride = gl_NumWorkGroups.x * 64u;
 	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
-		new_positions[i] = placed(constants.cascade, world_records[record_base(constants.cascade) + i]);
+		WorldRecord record = world_records[record_base(constants.cascade) + i];
+		new_places[i] = uvec2(placed(constants.cascade, record), seen_area(constants.cascade, record));
 	}
 }

@@ -24,9 +24,14 @@ void main() {
 	uint flags = face_from_normal(world_normal_from_cells(constants.cascade, front));
 	flags |= (material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u ? WORLD_TRIANGLE_DOUBLE_SIDED : 0u;
 	flags |= is_alpha_tested(material) ? WORLD_TRIANGLE_ALPHA_TESTED : 0u;
+	vec3 corners_m[3];
 	for (uint k = 0u; k < 3u; k++) {
 		uint corner = flipped && k > 0u ? 3u - k : k;
-		vec3 position_m = world_from_local(instances[surface.instance], positions[triangle.vertex[corner]]);
-		world_triangles[i * 3u + k] = vec4(position_m, k == 0u ? uintBitsToFloat(flags) : 0.0);
+		corners_m[k] = world_from_local(instances[surface.instance], positions[triangle.vertex[corner]]);
+		world_triangles[i * 4u + 1u + k] = vec4(corners_m[k], k == 0u ? uintBitsToFloat(flags) : 0.0);
 	}
+	// Without area: no plane, no ray meets it.
+	vec3 n = cross(corners_m[1] - corners_m[0], corners_m[2] - corners_m[0]);
+	n = dot(n, n) > 1e-30 ? normalize(n) : vec3(0.0);
+	world_triangles[i * 4u] = vec4(n, dot(n, corners_m[0]));
 }

@@ -121,30 +121,38 @@ bool cell_is_listed(WorldCell cell) {
 	return cell.triangles != WORLD_NOT_LISTED;
 }
 
-// Signed distances of a line's place on a triangle's plane from the edges, times the edges' lengths and the normal's: inside where none
-// is below -growth times these.
+// Is a point of a triangle's plane inside of it, or no further than `growth` outside of an edge?
 bool is_in_triangle(vec3 a, vec3 b, vec3 c, vec3 n, vec3 p, float growth) {
 	vec3 ab = b - a;
 	vec3 bc = c - b;
 	vec3 ca = a - c;
+	// Distances from the edges, times the edges' lengths.
 	vec3 inside = vec3(dot(cross(ab, p - a), n), dot(cross(bc, p - b), n), dot(cross(ca, p - c), n));
-	vec3 limit = -growth * length(n) * sqrt(vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca)));
-	return all(greaterThanEqual(inside, limit));
+	return all(greaterThanEqual(inside, -growth * sqrt(vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca)))));
 }
 
 // Where the line o + t * d meets a listed triangle within t's range; negative: it does not. Triangles are larger by `growth` all around.
 // r_along: of d along the normal; r_flags: WORLD_TRIANGLE_*.
 float meet_triangle(uint number, vec3 o, vec3 d, vec2 range, float growth, out float r_along, out uint r_flags) {
-	count_fetch(WORLD_TRIANGLE_BYTES);
-	vec4 first = world_triangles[number * 3u];
+	count_fetch(16u);
+	r_flags = 0u;
+	vec4 plane = world_triangles[number * 4u];
+	r_along = dot(plane.xyz, d);
+	// Far from the origin the plane's distance is rounded: it only tells which triangles are out of the question.
+	float off = plane.w - dot(plane.xyz, o);
+	float slack = growth + 1e-6 * abs(plane.w);
+	vec2 span = r_along * range;
+	if (off < min(span.x, span.y) - slack || off > max(span.x, span.y) + slack || abs(r_along) < 1e-12) {
+		return -1.0;
+	}
+	count_fetch(48u);
+	vec4 first = world_triangles[number * 4u + 1u];
 	vec3 a = first.xyz - o;
-	vec3 b = world_triangles[number * 3u + 1u].xyz - o;
-	vec3 c = world_triangles[number * 3u + 2u].xyz - o;
+	vec3 b = world_triangles[number * 4u + 2u].xyz - o;
+	vec3 c = world_triangles[number * 4u + 3u].xyz - o;
 	r_flags = floatBitsToUint(first.w);
-	vec3 n = cross(b - a, c - a);
-	r_along = dot(n, d);
-	float t = abs(r_along) > 1e-30 ? dot(n, a) / r_along : -1.0;
-	return t >= max(range.x, 0.0) && t <= range.y && is_in_triangle(a, b, c, n, d * t, growth) ? t : -1.0;
+	float t = dot(plane.xyz, a) / r_along;
+	return t >= max(range.x, 0.0) && t <= range.y && is_in_triangle(a, b, c, plane.xyz, d * t, growth) ? t : -1.0;
 }
 
 float triangle_growth_m(uint cascade) {

@@ -27,7 +27,7 @@
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
 #define WORLD_CELL_TRIANGLES 28 // uint: a triangle of a listed cell: its number in WORLD_TRIANGLES, above it the octants of the cell that it touches
-#define WORLD_TRIANGLES 29 // vec4, three a triangle: its corners in metres, its front counterclockwise; w of the first: WORLD_TRIANGLE_* as bits
+#define WORLD_TRIANGLES 29 // vec4, four a triangle: plane (unit normal of the front, distance from the origin), then corners, all in metres; w of the first corner: WORLD_TRIANGLE_* as bits
 #define WORLD_FETCH_COUNTS 35 // FetchCounts a pass (fetch_counts_inc.glsl)
 
 #define COUNT_FETCHES_ID 0 // specialisation constant
@@ -41,7 +41,7 @@
 #define WORLD_NOT_LISTED 0xFFFFFFFFu
 // Triangles are this much larger for rays, in cells: what is cracked by less is closed. As much as coverage is grown, so that lists are complete.
 #define WORLD_TRIANGLE_GROWTH_CELLS (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
-#define WORLD_TRIANGLE_BYTES 48
+#define WORLD_TRIANGLE_BYTES 64
 #define WORLD_TRIANGLE_NUMBER_BITS 24
 // The lowest bits: the face that the front mostly looks at.
 #define WORLD_TRIANGLE_FACE 7u
