@@ -47,27 +47,6 @@ struct GiQuery {
 	bool has_start;
 };
 
-// A point just off the surface, in a free sub-voxel, or, with `ways`, where the cells know their surfaces at the end of a free way. The way to the eye is
-// free, so steps towards it stay on the surface's side.
-void find_query_start(inout GiQuery query, uint cascade, const bool ways) {
-	float along_normal = sub_voxel_along_m(cascade, query.normal);
-	float along_view = sub_voxel_along_m(cascade, query.view);
-	query.has_start = false;
-	for (uint i = 0u; i < 10u && !query.has_start; i++) {
-		// First off the surface, then from there towards the eye, then towards the eye alone.
-		float off = i < 8u ? probe_params.normal_bias : 0.0;
-		float towards = probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u));
-		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
-		query.has_start = !sub_voxel_is_solid(cascade, query.start_m);
-	}
-	// Between solid sub-voxels: less and less far off.
-	vec3 near_m = query.position_m + query.normal * (0.02 * along_normal);
-	for (uint i = 0u; ways && i < 4u && !query.has_start; i++) {
-		query.start_m = query.position_m + query.normal * (probe_params.normal_bias * exp2(-float(i)) * along_normal);
-		query.has_start = short_way_is_free(cascade, near_m, query.start_m);
-	}
-}
-
 // The 2 x 2 x 2 cells whose centres surround the point in question; ways between its surfaces hardly leave them.
 struct CellFootprint {
 	ivec3 base;
@@ -107,6 +86,26 @@ WorldCell cell_on_way(uint cascade, ivec3 cell) {
 	return load_cell(cascade, cell);
 }
 
+// A point just off the surface, in a free sub-voxel, or, with `ways`, where the cells know their surfaces at the end of a free way. The way to
+// the eye is free, so steps towards it stay on the surface's side; a step along the normal may cross another surface, unless the footprint
+// has one plane only.
+void find_query_start(inout GiQuery query, uint cascade, const bool ways) {
+	find_footprint(query.position_m, cascade);
+	float along_normal = sub_voxel_along_m(cascade, query.normal);
+	float along_view = sub_voxel_along_m(cascade, query.view);
+	vec3 near_m = query.position_m + query.normal * (0.02 * along_normal);
+	bool checks = !footprint.is_plain && cell_is_listed(load_cell(cascade, ivec3(floor(query.position_m / world.cascades[cascade].cell_m))));
+	query.has_start = false;
+	for (uint i = 0u; i < (ways ? 14u : 10u) && !query.has_start; i++) {
+		// First off the surface, then from there towards the eye, then towards the eye alone, then between solid sub-voxels less and less far off.
+		float off = i < 8u ? probe_params.normal_bias : (i < 10u ? 0.0 : probe_params.normal_bias * exp2(-float(i - 10u)));
+		float towards = i < 10u ? probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u)) : 0.0;
+		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
+		bool is_free = i >= 10u || !sub_voxel_is_solid(cascade, query.start_m);
+		query.has_start = is_free && (!(checks || i >= 10u) || short_way_is_free(cascade, near_m, query.start_m));
+	}
+}
+
 // Records that may answer, by weight; at most this many, the first found.
 #define MAX_CANDIDATES 12u
 
@@ -118,7 +117,6 @@ struct RecordCandidates {
 #define CANDIDATE_SEEN 0x80000000u
 
 RecordCandidates find_candidates(GiQuery query, uint cascade) {
-	find_footprint(query.position_m, cascade);
 	RecordCandidates found;
 	found.count = 0u;
 	vec3 n = query.normal;

@@ -23,7 +23,7 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler worl
 #ifndef WORLD_CELL_ON_WAY
 #define WORLD_CELL_ON_WAY load_cell
 #endif
-#define SHORT_WAY_MAX_STEPS 48u
+#define SHORT_WAY_MAX_CELLS 10u // three cells along each axis, and the first
 #define TEXEL_LOOKUP_BYTES 32u // bilinear, of RGBA16F
 // What a ray met, instead of a record's index.
 #define RAY_MET_NOTHING 0xFFFFFFFFu
@@ -41,36 +41,32 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	GridWalk walk;
 	walk.at = ivec3(floor(a));
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), way) - a) * inverse;
-	ivec3 cell_at = ivec3(0x7FFFFFFF);
-	WorldCell cell = WorldCell(uvec2(0u), 0u, WORLD_NOT_LISTED);
 	float t = 0.0;
-	uint passed = 0u; // octants of the present cell whose triangles the way does not cross
-	for (uint i = 0u; i < SHORT_WAY_MAX_STEPS; i++) {
-		ivec3 now = walk.at >> 2;
-		if (now != cell_at) {
-			cell_at = now;
-			passed = 0u;
-			cell = WORLD_CELL_ON_WAY(cascade, now);
-		}
-		float t_leave = walk_leaves(walk);
-		uvec3 local = uvec3(walk.at) & 3u;
-		uint octant = octant_of_sub_voxel(ivec3(local));
-		if ((passed & octant) == 0u && bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
-			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
-			if (cell_is_listed(cell)) {
-				if (crosses_triangles(cascade, cell, octant, now, from_m, to_m)) {
+	for (uint i = 0u; i < SHORT_WAY_MAX_CELLS; i++) {
+		ivec3 at = walk.at >> 2;
+		WorldCell cell = WORLD_CELL_ON_WAY(cascade, at);
+		bool is_listed = cell_is_listed(cell);
+		bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
+		uint octants = 0u;
+		// Through the cell: at most ten sub-voxels.
+		for (uint k = 0u; k < 12u && t < 1.0 && walk.at >> 2 == at; k++) {
+			float t_leave = walk_leaves(walk);
+			ivec3 local = walk.at & 3;
+			if (bit_is_set(cell.bits, uint(local.x + 4 * local.y + 16 * local.z))) {
+				octants |= octant_of_sub_voxel(local);
+				if (!is_listed && (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(at), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(at)))) {
 					return false;
 				}
-				passed |= octant;
-			} else if (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(now), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(now))) {
-				return false;
 			}
+			t = t_leave;
+			walk_on(walk, inverse, direction_sign);
 		}
-		if (t_leave >= 1.0) {
+		if (is_listed && octants != 0u && crosses_triangles(cascade, cell, octants, at, from_m, to_m)) {
+			return false;
+		}
+		if (t >= 1.0) {
 			return true;
 		}
-		t = t_leave;
-		walk_on(walk, inverse, direction_sign);
 	}
 	return false;
 }
@@ -155,17 +151,35 @@ vec3 lifted_point(HitQuery query) {
 	return short_way_is_free(query.hit.cascade, query.free_m, lifted_m) ? lifted_m : query.free_m;
 }
 
+HitQuery neighbour_query(HitQuery query) {
+	query.asks_ways = true;
+	query.free_m = lifted_point(query);
+	query.least_facing = -0.5;
+	return query;
+}
+
+// Those of a cell's faces whose records may answer.
+uint answering_faces(HitQuery query, uint packed_records) {
+	uint faces = packed_records & 63u;
+	return query.hit.face == HIT_BITS ? faces : faces & (1u << query.hit.face);
+}
+
+uint record_of_face(uint packed_records, uint face) {
+	return cell_first_record(packed_records) + uint(bitCount(packed_records & ((1u << face) - 1u)));
+}
+
 // Of 3 x 3 x 3 cells.
 ivec3 neighbour_offset(uint i) {
 	return ivec3(int(i % 3u), int((i / 3u) % 3u), int(i / 9u)) - 1;
 }
 
-// What answers: one record, drawn by weight among a cell's; RAY_MET_NOTHING: none.
+// What answers of a cell: one record, drawn by weight; `picked` where there is none.
 uint pick_in_cell(HitQuery query, uint packed_records, uint seed, inout float weight_sum, uint picked) {
 	uint end = record_end(query.hit.cascade);
-	uint index = cell_first_record(packed_records);
-	for (uint faces = packed_records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
-		float weight = record_weight(query, stored_record(index));
+	uint faces = answering_faces(query, packed_records);
+	for (uint left = faces; left != 0u; left &= left - 1u) {
+		uint index = record_of_face(packed_records, uint(findLSB(left)));
+		float weight = index < end ? record_weight(query, stored_record(index)) : 0.0;
 		weight_sum += weight;
 		if (weight > 0.0 && unit_float(hash_uint(seed + index)) * weight_sum < weight) {
 			picked = index;
@@ -181,16 +195,13 @@ uint pick_record(WorldHit hit, vec3 direction, uint seed) {
 		return picked;
 	}
 	uint packed_records = stored_cell(hit.cell).records;
-	bool several = has_several(packed_records & 63u);
-	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), several, 0.0);
+	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), has_several(packed_records & 63u), 0.0);
 	float weight_sum = 0.0;
 	picked = pick_in_cell(query, packed_records, seed, weight_sum, picked);
 	if (picked != RAY_MET_NOTHING) {
 		return picked;
 	}
-	query.asks_ways = true;
-	query.free_m = lifted_point(query);
-	query.least_facing = -0.5;
+	query = neighbour_query(query);
 	for (uint i = 0u; i < 27u; i++) {
 		picked = pick_in_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)).records, seed, weight_sum, picked);
 	}
@@ -201,8 +212,11 @@ uint pick_record(WorldHit hit, vec3 direction, uint seed) {
 vec4 light_of_cell(HitQuery query, WorldCell cell) {
 	vec4 sum = vec4(0.0);
 	uint end = record_end(query.hit.cascade);
-	uint index = cell_first_record(cell.records);
-	for (uint faces = cell.records & 63u; faces != 0u && index < end; faces &= faces - 1u, index++) {
+	for (uint left = answering_faces(query, cell.records); left != 0u; left &= left - 1u) {
+		uint index = record_of_face(cell.records, uint(findLSB(left)));
+		if (index >= end) {
+			continue;
+		}
 		WorldRecord record = stored_record(index);
 		float weight = record_weight(query, record);
 		if (weight > 0.0) {
@@ -223,9 +237,7 @@ vec3 hit_radiance(WorldHit hit, vec3 direction) {
 	if (sum.w > 0.0) {
 		return sum.rgb / sum.w;
 	}
-	query.asks_ways = true;
-	query.free_m = lifted_point(query);
-	query.least_facing = -0.5;
+	query = neighbour_query(query);
 	for (uint i = 0u; i < 27u; i++) {
 		sum += light_of_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)));
 	}
