@@ -57,7 +57,7 @@ void declare_options(CLI::App &r_app, BenchOptions &r_options, std::string &r_si
 			->check(CLI::Range(1u, 1000000u))
 			->type_name("N")
 			->multi_option_policy(last);
-	r_app.add_option("--grid", r_options.grid, "cells an axis of each cascade [64 on a CPU device, else 128]")->check(CLI::IsMember({ 64u, 128u, 256u }))->type_name("N")->multi_option_policy(last);
+	r_app.add_option("--grid", r_options.grid, furnace ? "cells an axis of each cascade [the scene's]" : "cells an axis of each cascade [64 on a CPU device, else 128]")->check(CLI::IsMember({ 64u, 128u, 256u }))->type_name("N")->multi_option_policy(last);
 	if (quality) {
 		r_app.add_option("--size", r_size, "picture size: that of the truth or half of it [256x144]")->type_name("WxH")->multi_option_policy(last);
 	}
