@@ -143,7 +143,7 @@ TEST_CASE("light error: the truth's noise is no error of a picture, of blocks or
 	CHECK(pattern.blocks.nrmse < 0.02);
 }
 
-TEST_CASE("light error: nine in ten intervals hold the error, whatever the noise") {
+TEST_CASE("light error: intervals of 95 % hold the error, whatever the noise") {
 	const TruthImage clean = ramp(64, 48);
 	const MetricImage light = chequered(clean.light(), 4, 0.1f);
 	const LightError exact = measure_light_error(light, clean).value();
@@ -156,9 +156,9 @@ TEST_CASE("light error: nine in ten intervals hold the error, whatever the noise
 		pixels += std::abs(error.pixels.nrmse - exact.pixels.nrmse) <= error.pixels.interval ? 1 : 0;
 		mottles += std::abs(error.mottle.mottle - exact.mottle.mottle) <= error.mottle.interval ? 1 : 0;
 	}
-	CHECK(blocks >= 90);
-	CHECK(pixels >= 90);
-	CHECK(mottles >= 90);
+	CHECK(blocks >= 88); // of 100: 95 are expected, fewer than 88 come once in 200 times
+	CHECK(pixels >= 88);
+	CHECK(mottles >= 88);
 }
 
 TEST_CASE("mottle: sees blotches, not brightness, edges of the truth or its noise") {
