@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-import os
 import warnings
 from typing import Any, Dict, Iterator, Optional, Sequence, Tuple
 
@@ -47,7 +46,7 @@ class _Node:
         return True
 
     def __contains__(self, path: object) -> bool:
-        return self.has_node(path) if isinstance(path, str) else any(child == path for child in self)  # type: ignore[attr-defined]
+        return bool(self.has_node(path)) if isinstance(path, str) else any(child == path for child in self)  # type: ignore[attr-defined]
 
     def _ipython_key_completions_(self) -> Any:
         return [str(self.get_path_to(node)) for node in self.find_children("*", owned=False)]  # type: ignore[attr-defined]
@@ -140,7 +139,3 @@ def apply_scripts(tree: Any, scripts: Dict[str, Any]) -> None:
     for group, script in scripts.items():
         for node in tree.get_nodes_in_group(group):
             _lucent.attach(node, script)
-
-
-def path_text(path: Any) -> str:
-    return os.fspath(path)

@@ -58,23 +58,23 @@ class _Vector(_Value):
             return type(self)(*[operation(part, other) for part in self])
         if isinstance(other, (tuple, list, numpy.ndarray)) and len(other) == len(self):
             return type(self)(*[operation(a, b) for a, b in zip(self, other)])
-        return cast(Any, NotImplemented)
+        return cast(_T, NotImplemented)
 
-    def __add__(self: _T, other: Any) -> _T:  # type: ignore[override]
-        return self._each(other, lambda a, b: a + b) if not isinstance(other, (int, float)) else cast(Any, NotImplemented)
+    def __add__(self: _T, other: Any) -> _T:
+        return self._each(other, lambda a, b: a + b) if not isinstance(other, (int, float)) else cast(_T, NotImplemented)
 
     __radd__ = __add__
 
     def __sub__(self: _T, other: Any) -> _T:
-        return self._each(other, lambda a, b: a - b) if not isinstance(other, (int, float)) else cast(Any, NotImplemented)
+        return self._each(other, lambda a, b: a - b) if not isinstance(other, (int, float)) else cast(_T, NotImplemented)
 
     def __rsub__(self: _T, other: Any) -> _T:
-        return -self + other
+        return (-self).__add__(other)
 
-    def __mul__(self: _T, other: Any) -> _T:  # type: ignore[override]
+    def __mul__(self: _T, other: Any) -> _T:
         return self._each(other, lambda a, b: a * b)
 
-    __rmul__ = __mul__  # type: ignore[assignment]
+    __rmul__ = __mul__
 
     def __truediv__(self: _T, other: Any) -> _T:
         return self._each(other, lambda a, b: a / b)
@@ -252,7 +252,7 @@ class Basis(_Value):
     def __matmul__(self, other: Any) -> Any:
         return self * other
 
-    def __mul__(self, other: Any) -> Any:  # type: ignore[override]
+    def __mul__(self, other: Any) -> Any:
         if isinstance(other, Basis):
             return Basis(self * other.x, self * other.y, self * other.z)
         if isinstance(other, (tuple, list, numpy.ndarray)) and len(other) == 3:
@@ -278,7 +278,7 @@ class Transform3D(_Value):
     basis: Basis = _part(0, "Rotation and scale.")
     origin: Vector3 = _part(1, "Where the origin goes.")
 
-    def __mul__(self, other: Any) -> Any:  # type: ignore[override]
+    def __mul__(self, other: Any) -> Any:
         if isinstance(other, Transform3D):
             return Transform3D(self.basis * other.basis, self.basis * other.origin + self.origin)
         if isinstance(other, (tuple, list, numpy.ndarray)) and len(other) == 3:
@@ -353,7 +353,7 @@ class Color(_Value):
     b: float = _part(2, "Blue.")
     a: float = _part(3, "Alpha: 0 is clear.")
 
-    def __mul__(self, other: Any) -> Color:  # type: ignore[override]
+    def __mul__(self, other: Any) -> Color:
         if isinstance(other, (int, float)):
             return Color(self.r * other, self.g * other, self.b * other, self.a * other)
         return cast(Color, NotImplemented)

@@ -16,9 +16,11 @@ def parse_frames(text: str) -> List[int]:
     frames: List[int] = []
     for part in text.split(","):
         match = _PART.fullmatch(part)
-        first, last, step = (int(value) if value else default for value, default in zip(match.groups(), (0, None, 1))) if match else (0, -1, 0)
-        last = first if last is None else last
-        if match is None or step < 1 or last < first:
+        if match is None:
+            raise ValueError(f"frames '{text}': expected 1-240, 1-240:2 or 1-3,5")
+        begin, end, every = match.groups()
+        first, last, step = int(begin), int(end or begin), int(every or 1)
+        if step < 1 or last < first:
             raise ValueError(f"frames '{text}': expected 1-240, 1-240:2 or 1-3,5")
         if (last - first) // step + len(frames) >= MAX_FRAMES:
             raise ValueError(f"frames '{text}': more than {MAX_FRAMES} frames")

@@ -78,7 +78,7 @@ def _scene_key(scenes: Sequence[str], settings: Any) -> str:
             with open(path, "rb") as file:
                 content = hashlib.sha256(file.read()).hexdigest()
             digest.update(f"{os.path.basename(path)} {content}\n".encode())
-    with open(_lucent.__file__, "rb") as file: # the renderer and its shaders
+    with open(_lucent.__file__, "rb") as file:  # the renderer and its shaders
         digest.update(hashlib.sha256(file.read()).digest())
     digest.update(json.dumps(settings, sort_keys=True, default=str).encode())
     return digest.hexdigest()
@@ -167,12 +167,12 @@ def sequence(
         raise ValueError(f"fps: must be above 0, got {fps}")
     folder = os.path.dirname(out)
     os.makedirs(folder or ".", exist_ok=True)
-    with tempfile.TemporaryFile(dir=folder or "."): # a folder that can't be written is known before the first frame
+    with tempfile.TemporaryFile(dir=folder or "."):  # a folder that can't be written is known before the first frame
         pass
     _remove_leftovers(folder)
     scene = os.fspath(tree) if isinstance(tree, (str, os.PathLike)) else ""
-    held = lucent.load(scene) if scene else None # read once
-    carried = None if scene and gi_mode == "settle" else (lucent.open(scene) if scene else tree)
+    held = lucent.load(scene) if scene else None  # read once
+    carried: Any = None if scene and gi_mode == "settle" else (lucent.open(scene) if scene else tree)
     settings = [size, fps, gi_mode, preroll if gi_mode == "carry" else 0, max_frames, list(aovs), camera if isinstance(camera, str) else None, key]
     scene_key = _scene_key([scene or carried.current_scene.scene_file_path], settings)
     result = SequenceResult()
@@ -270,7 +270,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
 
     def stop(number: int, _: Any) -> None:
         for name in _SIGNALS:
-            signal.signal(name, signal.SIG_DFL) # a second one ends the process at once
+            signal.signal(name, signal.SIG_DFL)  # a second one ends the process at once
         raise Interrupted(signal.Signals(number).name)
 
     for name in _SIGNALS:
