@@ -100,6 +100,11 @@ Entry::~Entry() {
 			Py_DECREF(object);
 		}
 		scope.reset();
+		if (kept_type) { // of a callback that nobody waited for: an object's end
+			PyErr_Restore(std::exchange(kept_type, nullptr), std::exchange(kept_value, nullptr),
+					std::exchange(kept_traceback, nullptr));
+			PyErr_WriteUnraisable(nullptr);
+		}
 		PyErr_Restore(type, value, traceback);
 		send_messages();
 	}

@@ -180,13 +180,13 @@ void define_scene(py::module_ &r_module) {
 		return turn([&] { return open_scene(object_of<scene::SceneTree>(p_tree, "a SceneTree"), p_path); });
 	});
 	r_module.def("close", [](const py::handle &p_tree) {
-		Entry entry;
-		if (entry && is_handle(p_tree.ptr())) {
-			std::unique_ptr<Object> tree = ScriptOwned::take(reinterpret_cast<Handle *>(p_tree.ptr())->id);
-			if (tree) {
+		return turn([&]() -> PyObject * {
+			const Handle *handle = is_handle(p_tree.ptr()) ? reinterpret_cast<Handle *>(p_tree.ptr()) : nullptr;
+			if (std::unique_ptr<Object> tree = handle ? ScriptOwned::take(handle->id) : nullptr) {
 				close_tree(std::move(tree));
 			}
-		}
+			Py_RETURN_NONE;
+		});
 	});
 	r_module.def("close_all", &close_all);
 	r_module.def("note_fork", &note_fork);

@@ -93,6 +93,11 @@ int handle_init(PyObject *p_self, PyObject *p_arguments, PyObject *p_keywords) {
 
 // The object ends with its handle where only scripts own it.
 void let_go(Handle *p_handle) {
+	const Entry entry;
+	if (!entry) { // after a fork: the parent's device is not ours to touch
+		PyErr_Clear();
+		return;
+	}
 	Object *object = ObjectDB::get(p_handle->id);
 	PythonScript *script = object ? dynamic_cast<PythonScript *>(object->get_script_instance()) : nullptr;
 	if (script && script->self() == reinterpret_cast<PyObject *>(p_handle)) {

@@ -187,7 +187,7 @@ std::optional<Variant> read_number(PyObject *p_object, Variant::Type p_type) {
 	if (PyBool_Check(p_object)) {
 		return Variant(p_object == Py_True);
 	}
-	if (PyIndex_Check(p_object)) { // numpy's integers too
+	if (PyIndex_Check(p_object) && !PySequence_Check(p_object)) { // numpy's integers too
 		const long long value = PyNumber_AsSsize_t(p_object, PyExc_OverflowError);
 		return value == -1 && PyErr_Occurred() ? std::nullopt : std::optional<Variant>(Variant(int64_t(value)));
 	}

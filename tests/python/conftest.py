@@ -18,7 +18,6 @@ def box_scene(tree, **material):
     """A red box in the left top corner, a lamp, a camera that looks along -z."""
     scene = lucent.Node3D(name="Main")
     box = lucent.MeshInstance3D(name="Box", mesh=lucent.BoxMesh())
-    box.mesh.surface_set_material
     box.material_override = lucent.StandardMaterial3D(
         albedo_color=lucent.Color(0, 0, 0), emission_enabled=True, emission=lucent.Color(1, 0, 0), **material
     )

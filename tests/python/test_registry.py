@@ -104,7 +104,7 @@ def test_ranges_and_enums():
 
 def test_arguments_are_named_in_errors():
     node = lucent.Node3D()
-    with pytest.raises(TypeError, match=r"Node3D.look_at\(\): argument 1 \(target\): expected Vector3, got str"):
+    with pytest.raises(TypeError, match=r"Node3D.look_at\(\): argument 1 \(target\): expected Vector3, got String"):
         node.look_at("there")
     with pytest.raises(TypeError, match="takes 1 to 2 arguments"):
         node.look_at()

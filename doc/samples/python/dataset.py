@@ -19,7 +19,8 @@ with lucent.SceneTree() as tree:
     scene = lucent.Node3D(name="Main")
     tree.current_scene = scene
     shapes = [lucent.BoxMesh(), lucent.SphereMesh(), lucent.TorusMesh(), lucent.CylinderMesh()]
-    thing = lucent.MeshInstance3D(name="Thing", material_override=lucent.StandardMaterial3D())
+    material = lucent.StandardMaterial3D()
+    thing = lucent.MeshInstance3D(name="Thing", material_override=material)
     ground = lucent.MeshInstance3D(name="Ground", mesh=lucent.PlaneMesh(size=lucent.Vector2(10, 10)))
     sun = lucent.DirectionalLight3D(name="Sun", shadow_enabled=True)
     camera = lucent.Camera3D(name="Camera")
@@ -29,7 +30,7 @@ with lucent.SceneTree() as tree:
         thing.mesh = shapes[number % len(shapes)]
         thing.position = lucent.Vector3(*generator.uniform((-1, 0.5, -1), (1, 1.5, 1)))
         thing.rotation = lucent.Vector3(*generator.uniform(0, 6.28, 3))
-        thing.material_override.albedo_color = lucent.Color.from_hsv(float(generator.random()), 0.7, 0.9)
+        material.albedo_color = lucent.Color.from_hsv(float(generator.random()), 0.7, 0.9)
         sun.rotation_degrees = lucent.Vector3(float(generator.uniform(-80, -20)), float(generator.uniform(0, 360)), 0)
         camera.look_at_from_position(lucent.Vector3(*generator.uniform((-3, 1.5, 3), (3, 3, 5))), lucent.Vector3(0, 0.5, 0))
         frame = tree.render(size, frames=frames, aovs=["depth", "normal"], srgb=False)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How a room's light depends on the walls' albedo, drawn with matplotlib if it is there: ./lucent python doc/samples/python/parameter_study.py [FOLDER]"""
 
+import importlib
 import os
 import sys
 
@@ -19,10 +20,8 @@ with lucent.open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../co
 for energy, mean in rows:
     print(f"sdfgi_energy {energy:.2f}: mean radiance {mean:.4f}")
 try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    importlib.import_module("matplotlib").use("Agg")
+    pyplot = importlib.import_module("matplotlib.pyplot")
 except ImportError:
     print("no picture: matplotlib is missing (Debian: python3-matplotlib)")
 else:

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import json
 import warnings
-from typing import Any, Dict, Iterator, Optional, Sequence, Tuple
+from collections.abc import Iterator, Sequence
+from typing import Any, Dict, Optional, Tuple
 
 from lucent import _lucent
 from lucent._frame import Frame, NotConverged
@@ -18,7 +19,7 @@ class _Object:
         raise AttributeError(f"{kind.__name__} has no member '{name}'{_lucent.suggestion(name, names)}")
 
     def __dir__(self) -> Any:
-        dynamic = [entry["name"] for entry in self.get_property_list()] if self._is_valid() else []  # type: ignore[attr-defined]
+        dynamic = [entry["name"] for entry in self.get_property_list()] if self._is_valid() else []
         return sorted({*object.__dir__(self), *dynamic})
 
 

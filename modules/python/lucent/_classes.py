@@ -71,8 +71,8 @@ def make_class(name: str, classes: Dict[str, Any], enums: Dict[str, Any]) -> Any
         made = make_enum(name, enum_name, values)
         members[enum_name] = enums[f"{name}.{enum_name}"] = made
         members.update({key: made[key] for key in values})
-    for method, member, _ in info["methods"]:
-        members[method] = member
+    for method, member, facts in info["methods"]:
+        members[method] = staticmethod(member) if facts["static"] else member
     for signal, _, doc in info["signals"]:
         members[signal] = SignalMember(signal, doc)
     for prop, member, *_ in info["properties"]:

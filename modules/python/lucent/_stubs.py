@@ -107,7 +107,7 @@ def class_text(name: str) -> str:
     for constant, value, enum_name, _ in info["constants"]:
         text += f"    {constant}: {enum_name or 'int'}\n"
     if info["instantiable"]:
-        text += "    def __init__(self, **properties: _Any) -> None: ...\n"
+        text += "    def __init__(self, *args: _Any, **kwargs: _Any) -> None: ...\n"
     additions = _additions.members(name)
     for method, _, facts in info["methods"]:
         if method not in additions:
@@ -140,6 +140,10 @@ def stubs() -> str:
     return HEAD + "".join(class_text(name) for name in ordered())
 
 
-if __name__ == "__main__":
+def main() -> None:
     with open(sys.argv[1], "w", encoding="utf-8") as output:
         output.write(stubs())
+
+
+if __name__ == "__main__":
+    main()

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Iterable, NoReturn, Sequence, TypeVar, Union, cast
+from collections.abc import Iterable, Sequence
+from typing import Any, NoReturn, TypeVar, Union, cast
 
 import numpy
 import numpy.typing
@@ -108,10 +109,6 @@ class _Vector(_Value):
         return self + (to - self) * weight
 
 
-def _part(index: int, doc: str) -> Any:
-    return property(lambda self: self[index], doc=doc)
-
-
 class Vector2(_Vector):
     """Two floats."""
 
@@ -121,8 +118,15 @@ class Vector2(_Vector):
     def __new__(cls, x: Number = 0.0, y: Number = 0.0) -> Vector2:
         return tuple.__new__(cls, (float(x), float(y)))
 
-    x: float = _part(0, "The first part.")
-    y: float = _part(1, "The second part.")
+    @property
+    def x(self) -> float:
+        """The first part."""
+        return cast(float, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> float:
+        """The second part."""
+        return cast(float, tuple.__getitem__(self, 1))
 
     def with_x(self, x: Number) -> Vector2:
         """The same with another x."""
@@ -142,8 +146,15 @@ class Vector2i(_Vector):
     def __new__(cls, x: Number = 0, y: Number = 0) -> Vector2i:
         return tuple.__new__(cls, (int(x), int(y)))
 
-    x: int = _part(0, "The first part.")
-    y: int = _part(1, "The second part.")
+    @property
+    def x(self) -> int:
+        """The first part."""
+        return cast(int, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> int:
+        """The second part."""
+        return cast(int, tuple.__getitem__(self, 1))
 
     def with_x(self, x: int) -> Vector2i:
         """The same with another x."""
@@ -163,9 +174,20 @@ class Vector3(_Vector):
     def __new__(cls, x: Number = 0.0, y: Number = 0.0, z: Number = 0.0) -> Vector3:
         return tuple.__new__(cls, (float(x), float(y), float(z)))
 
-    x: float = _part(0, "To the right.")
-    y: float = _part(1, "Up.")
-    z: float = _part(2, "Towards the viewer.")
+    @property
+    def x(self) -> float:
+        """To the right."""
+        return cast(float, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> float:
+        """Up."""
+        return cast(float, tuple.__getitem__(self, 1))
+
+    @property
+    def z(self) -> float:
+        """Towards the viewer."""
+        return cast(float, tuple.__getitem__(self, 2))
 
     def with_x(self, x: Number) -> Vector3:
         """The same with another x."""
@@ -195,9 +217,20 @@ class Vector3i(_Vector):
     def __new__(cls, x: Number = 0, y: Number = 0, z: Number = 0) -> Vector3i:
         return tuple.__new__(cls, (int(x), int(y), int(z)))
 
-    x: int = _part(0, "The first part.")
-    y: int = _part(1, "The second part.")
-    z: int = _part(2, "The third part.")
+    @property
+    def x(self) -> int:
+        """The first part."""
+        return cast(int, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> int:
+        """The second part."""
+        return cast(int, tuple.__getitem__(self, 1))
+
+    @property
+    def z(self) -> int:
+        """The third part."""
+        return cast(int, tuple.__getitem__(self, 2))
 
 
 class Vector4(_Vector):
@@ -209,10 +242,25 @@ class Vector4(_Vector):
     def __new__(cls, x: Number = 0.0, y: Number = 0.0, z: Number = 0.0, w: Number = 0.0) -> Vector4:
         return tuple.__new__(cls, (float(x), float(y), float(z), float(w)))
 
-    x: float = _part(0, "The first part.")
-    y: float = _part(1, "The second part.")
-    z: float = _part(2, "The third part.")
-    w: float = _part(3, "The fourth part.")
+    @property
+    def x(self) -> float:
+        """The first part."""
+        return cast(float, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> float:
+        """The second part."""
+        return cast(float, tuple.__getitem__(self, 1))
+
+    @property
+    def z(self) -> float:
+        """The third part."""
+        return cast(float, tuple.__getitem__(self, 2))
+
+    @property
+    def w(self) -> float:
+        """The fourth part."""
+        return cast(float, tuple.__getitem__(self, 3))
 
 
 class Quaternion(_Value):
@@ -224,10 +272,25 @@ class Quaternion(_Value):
     def __new__(cls, x: Number = 0.0, y: Number = 0.0, z: Number = 0.0, w: Number = 1.0) -> Quaternion:
         return tuple.__new__(cls, (float(x), float(y), float(z), float(w)))
 
-    x: float = _part(0, "The axis' x times the sine of half the angle.")
-    y: float = _part(1, "The axis' y times the sine of half the angle.")
-    z: float = _part(2, "The axis' z times the sine of half the angle.")
-    w: float = _part(3, "The cosine of half the angle.")
+    @property
+    def x(self) -> float:
+        """The axis' x times the sine of half the angle."""
+        return cast(float, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> float:
+        """The axis' y times the sine of half the angle."""
+        return cast(float, tuple.__getitem__(self, 1))
+
+    @property
+    def z(self) -> float:
+        """The axis' z times the sine of half the angle."""
+        return cast(float, tuple.__getitem__(self, 2))
+
+    @property
+    def w(self) -> float:
+        """The cosine of half the angle."""
+        return cast(float, tuple.__getitem__(self, 3))
 
     @staticmethod
     def from_axis_angle(axis: Vector3, angle: float) -> Quaternion:
@@ -245,9 +308,20 @@ class Basis(_Value):
     def __new__(cls, x: Sequence[Number] = (1, 0, 0), y: Sequence[Number] = (0, 1, 0), z: Sequence[Number] = (0, 0, 1)) -> Basis:
         return tuple.__new__(cls, (Vector3(*x), Vector3(*y), Vector3(*z)))
 
-    x: Vector3 = _part(0, "Where the x axis goes.")
-    y: Vector3 = _part(1, "Where the y axis goes.")
-    z: Vector3 = _part(2, "Where the z axis goes.")
+    @property
+    def x(self) -> Vector3:
+        """Where the x axis goes."""
+        return cast(Vector3, tuple.__getitem__(self, 0))
+
+    @property
+    def y(self) -> Vector3:
+        """Where the y axis goes."""
+        return cast(Vector3, tuple.__getitem__(self, 1))
+
+    @property
+    def z(self) -> Vector3:
+        """Where the z axis goes."""
+        return cast(Vector3, tuple.__getitem__(self, 2))
 
     def __matmul__(self, other: Any) -> Any:
         return self * other
@@ -275,8 +349,15 @@ class Transform3D(_Value):
     def __new__(cls, basis: Iterable[Sequence[Number]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1)), origin: Sequence[Number] = (0, 0, 0)) -> Transform3D:
         return tuple.__new__(cls, (basis if isinstance(basis, Basis) else Basis(*basis), Vector3(*origin)))
 
-    basis: Basis = _part(0, "Rotation and scale.")
-    origin: Vector3 = _part(1, "Where the origin goes.")
+    @property
+    def basis(self) -> Basis:
+        """Rotation and scale."""
+        return cast(Basis, tuple.__getitem__(self, 0))
+
+    @property
+    def origin(self) -> Vector3:
+        """Where the origin goes."""
+        return cast(Vector3, tuple.__getitem__(self, 1))
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Transform3D):
@@ -313,8 +394,15 @@ class AABB(_Value):
     def __new__(cls, position: Sequence[Number] = (0, 0, 0), size: Sequence[Number] = (0, 0, 0)) -> AABB:
         return tuple.__new__(cls, (Vector3(*position), Vector3(*size)))
 
-    position: Vector3 = _part(0, "The corner of the least coordinates.")
-    size: Vector3 = _part(1, "From that corner to the opposite one.")
+    @property
+    def position(self) -> Vector3:
+        """The corner of the least coordinates."""
+        return cast(Vector3, tuple.__getitem__(self, 0))
+
+    @property
+    def size(self) -> Vector3:
+        """From that corner to the opposite one."""
+        return cast(Vector3, tuple.__getitem__(self, 1))
 
     @property
     def end(self) -> Vector3:
@@ -348,10 +436,25 @@ class Color(_Value):
             return tuple.__new__(cls, (*parts, 1.0)[:4])
         return tuple.__new__(cls, (float(r), float(g), float(b), float(a)))
 
-    r: float = _part(0, "Red.")
-    g: float = _part(1, "Green.")
-    b: float = _part(2, "Blue.")
-    a: float = _part(3, "Alpha: 0 is clear.")
+    @property
+    def r(self) -> float:
+        """Red."""
+        return cast(float, tuple.__getitem__(self, 0))
+
+    @property
+    def g(self) -> float:
+        """Green."""
+        return cast(float, tuple.__getitem__(self, 1))
+
+    @property
+    def b(self) -> float:
+        """Blue."""
+        return cast(float, tuple.__getitem__(self, 2))
+
+    @property
+    def a(self) -> float:
+        """Alpha: 0 is clear."""
+        return cast(float, tuple.__getitem__(self, 3))
 
     def __mul__(self, other: Any) -> Color:
         if isinstance(other, (int, float)):

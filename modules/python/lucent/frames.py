@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import os
 import re
-from typing import List, Mapping, Optional, Sequence, Tuple
+from collections.abc import Mapping, Sequence
+from typing import List, Optional, Tuple
 
 MAX_FRAMES = 1000000
 _PART = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:[:x](\d{1,9}))?)?")

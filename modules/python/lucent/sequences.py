@@ -16,7 +16,8 @@ import signal
 import sys
 import tempfile
 import time
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from collections.abc import Iterator, Sequence
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 import lucent
 from lucent import _lucent
@@ -214,7 +215,7 @@ def sequence(
                 raise lucent.Error(f"not converged after {frame.stats['frames']} frames")
             _publish(path, frame.save)
             facts = {"key": frame_key, "frame": number, "time": number / fps, "bytes": os.path.getsize(path), "host": platform.node()}
-            facts.update(wall_s=time.monotonic() - begun, version=lucent.version, **frame.stats)
+            facts.update({"seconds": time.monotonic() - begun, "version": lucent.version, **frame.stats})
             _publish(os.path.splitext(path)[0] + ".json", lambda name: _write_text(name, json.dumps(facts, indent=1) + "\n"))
         except (Interrupted, KeyboardInterrupt):
             result.interrupted = True

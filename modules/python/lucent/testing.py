@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Iterator
+from collections.abc import Iterator
+from typing import Any, Dict
 
 import numpy
 
