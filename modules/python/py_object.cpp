@@ -174,7 +174,8 @@ bool is_allowed(PyTypeObject *p_type, PyObject *p_name) {
 		for (const PropertyInfo *property : ClassDB::get_property_list(class_of(p_type)->name)) {
 			names.push_back(property->name);
 		}
-		const std::string near = std::string(name).size() > 3 ? suggestion(name, names, 2) : "";
+		const size_t length = std::string(name).size(); // short words are near to many
+		const std::string near = length > 3 ? suggestion(name, names, length > 5 ? 2 : 1) : "";
 		good = near.empty();
 		if (good) {
 			PyDict_SetItem(known, key, Py_True);

@@ -14,6 +14,8 @@ frames = int(os.environ.get("FRAMES", 30))
 class Door(lucent.MeshInstance3D):
     """Slides 2 m to the side in one second."""
 
+    closed = lucent.Vector3()
+
     def _ready(self) -> None:
         self.closed = self.position
 
