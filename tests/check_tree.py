@@ -39,7 +39,7 @@ RULES = [
     ("frame renderer", r"servers/rendering/", ["core", "device", "driver interface", "settings", "shared shaders", "scene data", "device scene", "passes", "gi shader interface", "gi world", "gi technique", "fog", "server interface"]),
     ("vulkan driver", r"drivers/vulkan/", ["core", "driver interface"]),
     ("null driver", r"drivers/null/", ["core", "driver interface"]),
-    ("app", r"modules/app/", None),
+    ("app", r"modules/(app|python)/", None),
     ("module", r"modules/", ["core", "settings", "shared shaders", "scene data", "server interface"]),
     ("tests", r"tests/", None),
 ]

@@ -5,6 +5,7 @@
 #include "modules/scene/light_3d.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/primitive_meshes.h"
+#include "modules/scene/resource_loader.h"
 #include "modules/scene/scene_tree.h"
 #include "modules/scene/world_environment.h"
 #include "servers/core/class_builder.h"
@@ -48,6 +49,7 @@ static void register_nodes() {
 	ClassDB::register_class<SpotLight3D>();
 	ClassDB::register_class<WorldEnvironment>();
 	ClassDB::register_class<SceneTree>();
+	ClassDB::register_abstract_class<ResourceLoader>();
 }
 
 void register_scene_classes() {

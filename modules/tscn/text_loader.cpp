@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/tscn/text_loader.h"
 
+#include "modules/tscn/gd_script.h"
 #include "modules/tscn/text_scene.h"
 #include "servers/core/class_db.h"
 #include "servers/core/file_io.h"
@@ -195,10 +196,11 @@ private:
 	Result<Variant> load_external(ExternalResource &r_external) {
 		if (!r_external.loaded) {
 			r_external.loaded = true;
-			if (r_external.type == "Script" || r_external.type == "GDScript") {
-				return Variant();
-			}
 			const std::string path = resolve_resource_path(r_external.path, source, path_folder(loading_stack().front()));
+			if (r_external.type == "Script" || r_external.type == "GDScript") {
+				r_external.resource = make_gd_script(path);
+				return Variant(r_external.resource);
+			}
 			if (std::find(loading_stack().begin(), loading_stack().end(), path) != loading_stack().end()) {
 				return make_error("'{}' is part of a cycle: it is being loaded already", r_external.path);
 			}

@@ -3,6 +3,7 @@
 
 #include "modules/scene/node.h"
 #include "modules/scene/node_3d.h"
+#include "modules/tscn/gd_script.h"
 #include "modules/tscn/mesh_data.h"
 #include "servers/core/class_db.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 // What scripts, the editor and importers keep in scenes; without effect on a picture.
 bool is_bookkeeping(const std::string &p_property) {
-	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "process_mode", "process_priority", "shadow_mesh", "blend_shape_mode", "lightmap_size_hint" };
+	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "shadow_mesh", "blend_shape_mode", "lightmap_size_hint" };
 	return p_property.starts_with("metadata/") || std::find(std::begin(NAMES), std::end(NAMES), p_property) != std::end(NAMES);
 }
 
@@ -150,8 +151,8 @@ void set_text_property(Object &r_object, const TscnProperty &p_property, const s
 	const std::string key = fmt::format("{}|{}|{}", p_source, r_object.get_class(), p_property.name);
 	if (!r_object.has_property(p_property.name)) {
 		const bool script = p_property.name == "script";
-		const std::string what = script ? "scripts are not run" : fmt::format("{} has no property '{}'; skipped", r_object.get_class(), p_property.name);
-		log_warning_once(script ? p_source + "|script" : key, fmt::format("{}:{}: {}", p_source, p_property.line, what));
+		const std::string what = script ? gd_script_notice(r_object, dynamic_cast<const Resource *>(p_property.value.get_object())) : fmt::format("{} has no property '{}'; skipped", r_object.get_class(), p_property.name);
+		log_warning_once(script ? fmt::format("{}|script|{}", p_source, p_property.line) : key, fmt::format("{}:{}: {}", p_source, p_property.line, what));
 		return;
 	}
 	if (p_property.value.is_nil()) { // null, or a resource that is left out: the default stays

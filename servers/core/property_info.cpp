@@ -67,31 +67,31 @@ static bool is_finite(const Variant &p_value) {
 }
 
 Status PropertyInfo::checked_set(Object &r_object, const Variant &p_value) const {
-	const std::string full_name = std::string(r_object.get_class()) + "." + name;
+	const auto full_name = [&] { return std::string(r_object.get_class()) + "." + name; }; // for errors alone: setting is frequent
 	if (!set) {
-		return make_error("{} is read-only", full_name);
+		return make_error("{} is read-only", full_name());
 	}
 	if (!is_finite(p_value)) {
-		return make_error("{} must be finite, got {}", full_name, p_value.to_string());
+		return make_error("{} must be finite, got {}", full_name(), p_value.to_string());
 	}
 	const std::optional<double> number = variant_to_float(p_value);
 	if (hint == PropertyHint::RANGE && number) {
 		// Bounds and values pass through float: 0.01f must not fall below 0.01.
 		const double tolerance = 1e-6 * std::max(std::abs(range.min), std::abs(range.max));
 		if ((!range.or_less && *number < range.min - tolerance) || (!range.or_greater && *number > range.max + tolerance)) {
-			return make_error("{} must be between {} and {}, got {}", full_name, range.or_less ? "-inf" : fmt::format("{}", range.min),
+			return make_error("{} must be between {} and {}, got {}", full_name(), range.or_less ? "-inf" : fmt::format("{}", range.min),
 					range.or_greater ? "inf" : fmt::format("{}", range.max), p_value.to_string());
 		}
 	}
 	if (hint == PropertyHint::ENUM && number) {
 		const std::vector<ConstantInfo> constants = ClassDB::get_enum_constants(class_name);
 		if (std::none_of(constants.begin(), constants.end(), [&](const ConstantInfo &p_constant) { return double(p_constant.value) == *number; })) {
-			return make_error("{} must be one of {}, got {}", full_name, get_hint_string(), p_value.to_string());
+			return make_error("{} must be one of {}, got {}", full_name(), get_hint_string(), p_value.to_string());
 		}
 	}
 	if (!set(r_object, p_value)) {
 		const std::string expected = hint == PropertyHint::RESOURCE_TYPE ? class_name : Variant::get_type_name(type);
-		return make_error("{} expects {}, got {}", full_name, expected, describe(p_value));
+		return make_error("{} expects {}, got {}", full_name(), expected, describe(p_value));
 	}
 	return Ok();
 }
