@@ -86,23 +86,32 @@ WorldCell cell_on_way(uint cascade, ivec3 cell) {
 	return load_cell(cascade, cell);
 }
 
-// A point just off the surface, in a free sub-voxel, or, with `ways`, where the cells know their surfaces at the end of a free way. The way to
-// the eye is free, so steps towards it stay on the surface's side; a step along the normal may cross another surface, unless the footprint
-// has one plane only.
+// The least distance off a surface, in sub-voxels, that a pixel sees from: more than what its position is rounded by.
+#define NEAR_START_SUB_VOXELS 0.1
+
+// A point just off the surface, in a free sub-voxel. The way to the eye is free, so steps towards it stay on the surface's side; a step along
+// the normal may cross another surface, unless the footprint has one plane only. With `ways`, where the cells know their surfaces, also
+// between solid sub-voxels, nearer and nearer to the surface.
 void find_query_start(inout GiQuery query, uint cascade, const bool ways) {
 	find_footprint(query.position_m, cascade);
 	float along_normal = sub_voxel_along_m(cascade, query.normal);
 	float along_view = sub_voxel_along_m(cascade, query.view);
-	vec3 near_m = query.position_m + query.normal * (0.02 * along_normal);
-	bool checks = !footprint.is_plain && cell_is_listed(load_cell(cascade, ivec3(floor(query.position_m / world.cascades[cascade].cell_m))));
+	vec3 near_m = query.position_m + query.normal * (NEAR_START_SUB_VOXELS * along_normal);
+	bool is_listed = cell_is_listed(load_cell(cascade, ivec3(floor(near_m / world.cascades[cascade].cell_m))));
+	bool checks = !footprint.is_plain && is_listed;
 	query.has_start = false;
-	for (uint i = 0u; i < (ways ? 14u : 10u) && !query.has_start; i++) {
-		// First off the surface, then from there towards the eye, then towards the eye alone, then between solid sub-voxels less and less far off.
+	uint tries = ways && is_listed ? 14u : 10u;
+	for (uint i = 0u; i < tries && !query.has_start; i++) {
+		// First off the surface, then from there towards the eye, then towards the eye alone, then less and less far off.
 		float off = i < 8u ? probe_params.normal_bias : (i < 10u ? 0.0 : probe_params.normal_bias * exp2(-float(i - 10u)));
 		float towards = i < 10u ? probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u)) : 0.0;
 		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
 		bool is_free = i >= 10u || !sub_voxel_is_solid(cascade, query.start_m);
-		query.has_start = is_free && (!(checks || i >= 10u) || short_way_is_free(cascade, near_m, query.start_m));
+		query.has_start = is_free && (!checks || short_way_is_free(cascade, near_m, query.start_m));
+	}
+	if (ways && is_listed && !query.has_start) {
+		query.start_m = near_m;
+		query.has_start = true;
 	}
 }
 
