@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lists in each cell that has room for it the triangles that touch it, in any order: who reads them takes the nearest, of equally near ones
-// the first by number.
+// the one of the lowest face.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/world/visit_triangles_inc.glsl"

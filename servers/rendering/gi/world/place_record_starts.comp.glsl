@@ -101,15 +101,15 @@ bool move_to_column(inout WorldRecord record, uint column) {
 }
 
 // The outermost of a listed cell's triangles that show a face on the line through a place along its axis, in cells from the cell's lowest side;
-// w: how many such there are.
-vec2 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 place) {
+// y: how many such there are, z: how many of these are emissive.
+vec3 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 place) {
 	uint axis = face >> 1;
 	vec3 cell_m = world.cascades[cascade].cell_m;
 	place[axis] = -0.001;
 	vec3 d = vec3(0.0);
 	d[axis] = cell_m[axis];
 	float sign_out = (face & 1u) == 0u ? 1.0 : -1.0;
-	vec2 result = vec2(0.0);
+	vec3 result = vec3(0.0);
 	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
 		uint number = world_cell_triangles[(cell.triangles >> 6) + i] & WORLD_TRIANGLE_NUMBER_MASK;
 		float along;
@@ -119,6 +119,7 @@ vec2 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 
 		if (t >= 0.0 && (front == face || ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u && (front ^ 1u) == face))) {
 			result.x = result.y == 0.0 || (t - result.x - 0.001) * sign_out > 0.0 ? t - 0.001 : result.x;
 			result.y += 1.0;
+			result.z += (flags & WORLD_TRIANGLE_EMISSIVE) != 0u ? 1.0 : 0.0;
 		}
 	}
 	return result;
@@ -129,7 +130,7 @@ vec2 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 
 bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
 	uint axis = record_face(record) >> 1;
 	vec3 place = record_position_in_cell(record);
-	vec2 outermost = outermost_triangle(record_cascade(record), cell, record_world_cell(record), record_face(record), place);
+	vec3 outermost = outermost_triangle(record_cascade(record), cell, record_world_cell(record), record_face(record), place);
 	if (outermost.y == 0.0) {
 		return false;
 	}
@@ -139,7 +140,7 @@ bool move_to_triangle(inout WorldRecord record, WorldCell cell) {
 	return true;
 }
 
-// WorldRecord.area with the share of the emission that can leave the cell: of surfaces one behind the other the outermost gives light.
+// WorldRecord.area with the share of the emission that can leave the cell: of emissive surfaces one behind the other the outermost gives light.
 uint seen_area(uint cascade, WorldRecord record) {
 	WorldCell cell = world_cells[find_cell(cascade, storage_from_world_cell(record_world_cell(record)))];
 	if (record.emission == 0u || !cell_is_listed(cell) || (cell.records & WORLD_CELL_FLAT) != 0u) {
@@ -151,7 +152,7 @@ uint seen_area(uint cascade, WorldRecord record) {
 		vec3 place = vec3(0.0);
 		place[(axis + 1u) % 3u] = (float(i & 3u) + 0.5) / 4.0;
 		place[(axis + 2u) % 3u] = (float(i >> 2) + 0.5) / 4.0;
-		float surfaces = outermost_triangle(cascade, cell, record_world_cell(record), record_face(record), place).y;
+		float surfaces = outermost_triangle(cascade, cell, record_world_cell(record), record_face(record), place).z;
 		seen += vec2(min(surfaces, 1.0), surfaces);
 	}
 	float share = seen.y > 0.0 ? seen.x / seen.y : 1.0;

@@ -24,6 +24,7 @@ void main() {
 	uint flags = face_from_normal(world_normal_from_cells(constants.cascade, front));
 	flags |= (material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u ? WORLD_TRIANGLE_DOUBLE_SIDED : 0u;
 	flags |= is_alpha_tested(material) ? WORLD_TRIANGLE_ALPHA_TESTED : 0u;
+	flags |= material.emission != vec3(0.0) || material.gi_emission_layer >= 0 ? WORLD_TRIANGLE_EMISSIVE : 0u;
 	vec3 corners_m[3];
 	for (uint k = 0u; k < 3u; k++) {
 		uint corner = flipped && k > 0u ? 3u - k : k;

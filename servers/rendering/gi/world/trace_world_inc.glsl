@@ -179,7 +179,6 @@ float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 
 	float growth = triangle_growth_m(cascade);
 	uint first = cell.triangles >> 6;
 	uint count = cell.triangles & 63u;
-	uint nearest = 0xFFFFFFFFu;
 	float way_m = -1.0;
 	r_face = HIT_BACK;
 	for (uint i = 0u; i < count; i++) {
@@ -192,18 +191,18 @@ float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 
 		float along;
 		uint flags;
 		float t = meet_triangle(number, origin_m, d, between_m, growth, along, flags);
-		// Of equally near ones the first by number: the list's order doesn't matter.
-		if (t < 0.0 || (t == way_m && number > nearest)) {
+		if (t < 0.0) {
 			continue;
 		}
 		if ((flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
 			continue;
 		}
+		uint front = flags & WORLD_TRIANGLE_FACE;
+		uint face = along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+		// Of equally near ones the lowest face: neither the list's order nor the triangles' matters.
+		r_face = t == way_m ? min(r_face, face) : face;
 		between_m.y = t;
 		way_m = t;
-		nearest = number;
-		uint front = flags & WORLD_TRIANGLE_FACE;
-		r_face = along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
 	}
 	return way_m;
 }

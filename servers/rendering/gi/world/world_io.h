@@ -47,6 +47,7 @@
 #define WORLD_TRIANGLE_FACE 7u
 #define WORLD_TRIANGLE_DOUBLE_SIDED 8u
 #define WORLD_TRIANGLE_ALPHA_TESTED 16u // only where a solid bit is set
+#define WORLD_TRIANGLE_EMISSIVE 32u
 
 // Where a draw that samples GI finds these bindings and the probes': this much higher (transparent_inc.glsl).
 #define GI_SAMPLE_BINDING_BASE 32
