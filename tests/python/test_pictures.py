@@ -110,18 +110,16 @@ def test_meshes():
 def best(function, times=3):
     durations = []
     for _ in range(times):
-        start = time.perf_counter()
+        start = time.process_time()  # other programs' share of the machine does not count
         function()
-        durations.append(time.perf_counter() - start)
+        durations.append(time.process_time() - start)
     return min(durations)
 
 
 def test_other_dtypes_are_not_slow():
-    positions = numpy.random.default_rng(1).random((99999, 3), numpy.float32)
-    doubles = positions.astype(numpy.float64)
-    exact = best(lambda: lucent.ArrayMesh.from_arrays(positions))
-    converted = best(lambda: lucent.ArrayMesh.from_arrays(doubles))
-    assert converted < 5 * exact + 0.001
+    doubles = numpy.random.default_rng(1).random((99999, 3))
+    # 50 ns a number; one by one as Python objects they take several hundred.
+    assert best(lambda: lucent.ArrayMesh.from_arrays(doubles)) < 0.015
 
 
 def test_textures():
