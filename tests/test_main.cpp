@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bin/lucent_tests [--gpu | --gpu-only] [--device NAME] [--filter TEXT] [--root DIR] [--results FILE] [doctest options]
-// Runs the cases outside of the suite "gpu"; --gpu runs all, --gpu-only those alone. Exit code 0: every case passed.
+// bin/lucent_tests [--gpu | --gpu-only] [--whole] [--device NAME] [--filter TEXT] [--root DIR] [--results FILE] [doctest options]
+// Runs the cases outside of the suite "gpu"; --gpu runs all, --gpu-only those alone; with --whole cases that try a part of many tries try all. Exit code 0: every case passed.
 
 #define DOCTEST_CONFIG_IMPLEMENT
 #include "tests/test_support.h"
@@ -22,7 +22,7 @@ struct Counts {
 	int skipped = 0;
 };
 
-Options test_options = { "", "./" };
+Options test_options = { "", false, "./" };
 std::string results_path;
 std::string missing; // why the running case was skipped
 Counts counts;
@@ -109,6 +109,8 @@ bool take_options(std::vector<char *> &r_arguments, Selection &r_selection, std:
 			r_selection = Selection::ALL;
 		} else if (std::strcmp(argument, "--gpu-only") == 0) {
 			r_selection = Selection::GPU;
+		} else if (std::strcmp(argument, "--whole") == 0) {
+			test_options.whole = true;
 		} else if (!taken) {
 			rest.push_back(r_arguments[i]);
 		}

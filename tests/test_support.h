@@ -8,6 +8,7 @@ namespace lucent::test {
 
 struct Options {
 	std::string device; // --device NAME: index or part of the name; empty: the default choice
+	bool whole = false; // --whole: cases that try many of a kind try all
 	std::string root; // the repository, with a trailing slash; data files are root + "tests/data/..."
 };
 const Options &options();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "modules/app/bench_furnace.h"
 #include "modules/app/bench_results.h"
+#include "modules/app/stats_file.h"
 #include "modules/image/image_io.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <numeric>
 
 namespace lucent {
 
@@ -14,15 +17,29 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr const char *EXPLANATION = "Every surface reflects the albedo's share of the light and emits the rest, the sky is 1, no lamp shines: every pixel must be 1. "
-									"off: share of pixels that are more than 5 % away. frames+: the light had not settled by then.";
+									"off: share of pixels that are more than 5 % away. lost rays: share of the rays between surfaces whose hit gave no light. "
+									"lost pixels: share of the picture that found no free point before its surface, or no record (probes light it). frames+: the light had not settled by then.";
+
+// Share of the rays between surfaces whose hit gave no light.
+double lost_rays(const GiStats &p_gi) {
+	const uint64_t all = std::accumulate(p_gi.gather_rays.begin(), p_gi.gather_rays.end(), uint64_t(0));
+	const uint64_t lost = std::accumulate(p_gi.gather_rays.begin() + 3, p_gi.gather_rays.end(), uint64_t(0));
+	return double(lost) / double(std::max<uint64_t>(all, 1));
+}
+
+// Share of the picture that found no free point before the surface, or no record.
+double lost_pixels(const FurnaceRow &p_row) {
+	const uint64_t pixels = std::max<uint64_t>(uint64_t(p_row.picture.width) * p_row.picture.height, 1);
+	return double(p_row.gi.startless_pixels + p_row.gi.recordless_pixels) / double(pixels);
+}
 
 ReportTable furnace_table(const std::vector<FurnaceRow> &p_rows) {
 	ReportTable table;
-	table.columns = { "scene", "albedo", "mean", "p1", "p5", "p50", "p95", "p99", "off", "frames" };
+	table.columns = { "scene", "albedo", "mean", "p1", "p5", "p50", "p95", "p99", "off", "lost rays", "lost pixels", "frames" };
 	for (const FurnaceRow &row : p_rows) {
 		const FurnaceError &error = row.error;
 		table.rows.push_back({ row.name, fmt::format("{:g}", row.albedo), fmt::format("{:.4f}", error.mean), fmt::format("{:.3f}", error.p1), fmt::format("{:.3f}", error.p5),
-				fmt::format("{:.3f}", error.p50), fmt::format("{:.3f}", error.p95), fmt::format("{:.3f}", error.p99), fmt::format("{:.2f} %", 100.0 * error.off), std::to_string(row.frames) + (row.settled ? "" : "+") });
+				fmt::format("{:.3f}", error.p50), fmt::format("{:.3f}", error.p95), fmt::format("{:.3f}", error.p99), fmt::format("{:.2f} %", 100.0 * error.off), fmt::format("{:.2f} %", 100.0 * lost_rays(row.gi)), fmt::format("{:.2f} %", 100.0 * lost_pixels(row)), std::to_string(row.frames) + (row.settled ? "" : "+") });
 	}
 	return table;
 }
@@ -42,7 +59,7 @@ Json row_json(const FurnaceRow &p_row) {
 		{ "p95", error.p95 },
 		{ "p99", error.p99 },
 		{ "off", error.off },
-		{ "gi", { { "rays", p_row.gi.rays }, { "surface_cells", p_row.gi.surface_cells }, { "surface_records", p_row.gi.surface_records }, { "probes", p_row.gi.probes }, { "bytes", p_row.gi.bytes } } },
+		{ "gi", gi_json(p_row.gi) },
 		{ "seconds", p_row.seconds },
 	};
 }
@@ -76,7 +93,7 @@ Status write_furnace(const BenchOptions &p_options, const std::vector<FurnaceRow
 		}
 	}
 	std::fputs(table_text(table).c_str(), stdout);
-	std::printf("every pixel must be 1; off: share of pixels more than 5 %% away\n%s\n", line.c_str());
+	std::printf("every pixel must be 1; off: share of pixels more than 5 %% away; lost: rays whose hit gave no light, pixels without start or record\n%s\n", line.c_str());
 	if (const Status status = write_bench_json(p_options, "furnace", json); !status) {
 		return status;
 	}

@@ -67,18 +67,26 @@ static Json times_json(const PassTimes &p_times) {
 	return { { "frames", p_times.frames() }, { "total", total_ms }, { "gi", gi_ms }, { "passes", passes } };
 }
 
-namespace {
-
-Json gather_rays_json(const GiStats &p_gi) {
+Json gi_json(const GiStats &p_gi) {
 	constexpr const char *KINDS[] = { "sky", "record", "neighbour", "nothing", "back", "lost_cell" };
-	Json json = Json::object();
+	Json gather_rays = Json::object();
 	for (size_t i = 0; i < p_gi.gather_rays.size(); i++) {
-		json[KINDS[i]] = p_gi.gather_rays[i];
+		gather_rays[KINDS[i]] = p_gi.gather_rays[i];
 	}
-	return json;
+	return {
+		{ "rays", p_gi.rays },
+		{ "surface_cells", p_gi.surface_cells },
+		{ "surface_records", p_gi.surface_records },
+		{ "listed_triangles", p_gi.listed_triangles },
+		{ "plain_cells", p_gi.plain_cells },
+		{ "unlisted_cells", p_gi.unlisted_cells },
+		{ "gather_rays", gather_rays },
+		{ "startless_pixels", p_gi.startless_pixels },
+		{ "recordless_pixels", p_gi.recordless_pixels },
+		{ "probes", p_gi.probes },
+		{ "bytes", p_gi.bytes },
+	};
 }
-
-} // namespace
 
 std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_summary, const RenderingServer &p_server) {
 	const FrameStats frame = p_server.get_frame_stats();
@@ -95,17 +103,7 @@ std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_su
 		{ "draws", frame.draws },
 		{ "triangles", frame.triangles },
 		{ "lights", frame.lights },
-		{ "gi", {
-						{ "rays", frame.gi.rays },
-						{ "surface_cells", frame.gi.surface_cells },
-						{ "surface_records", frame.gi.surface_records },
-						{ "listed_triangles", frame.gi.listed_triangles },
-						{ "gather_rays", gather_rays_json(frame.gi) },
-						{ "startless_pixels", frame.gi.startless_pixels },
-						{ "recordless_pixels", frame.gi.recordless_pixels },
-						{ "probes", frame.gi.probes },
-						{ "bytes", frame.gi.bytes },
-				} },
+		{ "gi", gi_json(frame.gi) },
 	};
 	return stats.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
 }

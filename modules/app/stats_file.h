@@ -47,6 +47,9 @@ struct RenderSummary {
 // Bytes by kind: the debug name's first part, and its first two ("sdfgi.cascade2.sdf" counts for "sdfgi" and for "sdfgi.cascade2").
 nlohmann::ordered_json memory_json(const MemoryReport &p_report);
 
+// What GI counted (GiStats), without its fetches.
+nlohmann::ordered_json gi_json(const GiStats &p_gi);
+
 // The JSON text of --stats.
 std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_summary, const RenderingServer &p_server);
 

@@ -356,6 +356,8 @@ struct GiStats {
 	uint64_t surface_cells = 0; // alive, all cascades
 	uint64_t surface_records = 0;
 	uint64_t listed_triangles = 0; // in the cells' lists, one that several cells hold counts several times
+	uint64_t plain_cells = 0; // surface cells that one plane covers: they need no list
+	uint64_t unlisted_cells = 0; // surface cells of too many triangles for a list: as coarse as their voxels
 	// The rays of one frame that records gathered light with: met the sky, a record, a record beside the one that was to answer, nothing that
 	// answers, the back of a one-sided surface, a cell without memory. The last three are black.
 	std::array<uint64_t, 6> gather_rays{};

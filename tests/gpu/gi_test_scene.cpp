@@ -43,7 +43,9 @@ uint32_t GiTestScene::add_material(const Vector3 &p_albedo, const Vector3 &p_emi
 }
 
 void GiTestScene::add_triangle(const Vector3 &p_a, const Vector3 &p_b, const Vector3 &p_c, uint32_t p_material) {
-	corners.insert(corners.end(), { p_a, p_b, p_c });
+	for (const Vector3 &corner : { p_a, p_b, p_c }) {
+		corners.push_back(Vector3(frame * Vector4(corner, 1.0f)));
+	}
 	triangle_materials.push_back(p_material);
 }
 
@@ -160,26 +162,34 @@ GiSceneView GiTestScene::upload(const GiTestOrder &p_order) {
 	return view;
 }
 
+std::vector<Vector3> gather_patch(RenderingDevice &p_device, Sdfgi &r_sdfgi, const GiTestPatch &p_patch) {
+	const uint32_t w = p_patch.width, h = p_patch.height;
+	const OwnedTexture depth = p_device.create_texture({ .format = Format::D32_FLOAT, .width = w, .height = h, .usage = TEXTURE_SAMPLED | TEXTURE_DEPTH_TARGET, .name = "test.depth" });
+	const OwnedTexture normal = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .width = w, .height = h, .usage = TEXTURE_SAMPLED | TEXTURE_COLOR_TARGET, .name = "test.normal" });
+	const OwnedTexture irradiance = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .width = w, .height = h, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = "test.irradiance" });
+	const OwnedTexture radiance = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .width = w, .height = h, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = "test.radiance" });
+	PassRecorder &recorder = p_device.begin_frame();
+	recorder.render("test.surface").color(0, { normal }, LoadOp::CLEAR, Vector4(p_patch.normal, 2.0f)).depth({ depth }, LoadOp::CLEAR, 0.5f).draw({});
+	GiGatherInputs inputs = { .depth = depth, .normal_roughness = normal, .irradiance = irradiance, .radiance = radiance, .width = w, .height = h };
+	// Whatever the depth, a place of the picture is a place of the patch.
+	inputs.world_from_clip = Projection(Vector4(0.5f * p_patch.u_m, 0.0f), Vector4(0.5f * p_patch.v_m, 0.0f), Vector4(0.0f), Vector4(p_patch.center_m, 1.0f));
+	inputs.camera_position_m = p_patch.eye_m;
+	r_sdfgi.gather(recorder, inputs);
+	p_device.end_frame();
+	const std::vector<std::byte> texels = p_device.read_back_texture(irradiance);
+	std::vector<Vector3> result;
+	for (size_t i = 0; i < size_t(w) * h; i++) {
+		uint16_t values[4];
+		std::memcpy(values, texels.data() + i * sizeof(values), sizeof(values));
+		result.push_back(decode_half(values));
+	}
+	return result;
+}
+
 std::vector<Vector3> gather_at(RenderingDevice &p_device, Sdfgi &r_sdfgi, const std::vector<Vector3> &p_points_m, const std::vector<Vector3> &p_normals) {
 	std::vector<Vector3> result;
-	const OwnedTexture depth = p_device.create_texture({ .format = Format::D32_FLOAT, .usage = TEXTURE_SAMPLED | TEXTURE_DEPTH_TARGET, .name = "test.depth" });
-	const OwnedTexture normal = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .usage = TEXTURE_SAMPLED | TEXTURE_COLOR_TARGET, .name = "test.normal" });
-	const OwnedTexture irradiance = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = "test.irradiance" });
-	const OwnedTexture radiance = p_device.create_texture({ .format = Format::RGBA16_FLOAT, .usage = TEXTURE_SAMPLED | TEXTURE_STORAGE, .name = "test.radiance" });
 	for (size_t i = 0; i < p_points_m.size(); i++) {
-		PassRecorder &recorder = p_device.begin_frame();
-		recorder.render("test.surface").color(0, { normal }, LoadOp::CLEAR, Vector4(p_normals[i], 2.0f)).depth({ depth }, LoadOp::CLEAR, 0.5f).draw({});
-		GiGatherInputs inputs = { .depth = depth, .normal_roughness = normal, .irradiance = irradiance, .radiance = radiance, .width = 1, .height = 1 };
-		// Every clip position is the point.
-		inputs.world_from_clip = Projection(0.0f);
-		inputs.world_from_clip[3] = Vector4(p_points_m[i], 1.0f);
-		inputs.camera_position_m = p_points_m[i] + p_normals[i];
-		r_sdfgi.gather(recorder, inputs);
-		p_device.end_frame();
-		const std::vector<std::byte> texel = p_device.read_back_texture(irradiance);
-		uint16_t values[4];
-		std::memcpy(values, texel.data(), sizeof(values));
-		result.push_back(decode_half(values));
+		result.push_back(gather_patch(p_device, r_sdfgi, { .center_m = p_points_m[i], .u_m = Vector3(0.0f), .v_m = Vector3(0.0f), .normal = p_normals[i], .eye_m = p_points_m[i] + p_normals[i] })[0]);
 	}
 	return result;
 }

@@ -24,6 +24,8 @@ public:
 	// Counter-clockwise from the front: a, b, c, d.
 	void add_quad(const Vector3 &p_a, const Vector3 &p_b, const Vector3 &p_c, const Vector3 &p_d, uint32_t p_material);
 	void add_triangle(const Vector3 &p_a, const Vector3 &p_b, const Vector3 &p_c, uint32_t p_material);
+	// Where what is added from now on stands: world from local.
+	void set_frame(const Projection &p_frame) { frame = p_frame; }
 	void add_box(const Vector3 &p_min, const Vector3 &p_max, uint32_t p_material, bool p_inward = false);
 	void add_light(const shader::LightData &p_light) { lights.push_back(p_light); }
 	void set_sky(const Vector3 &p_above, const Vector3 &p_below);
@@ -36,6 +38,7 @@ private:
 	std::vector<std::vector<size_t>> surfaces(const GiTestOrder &p_order) const;
 
 	RenderingDevice &device;
+	Projection frame{ 1.0f };
 	std::vector<Vector3> corners; // three a triangle
 	std::vector<uint32_t> triangle_materials;
 	std::vector<shader::MaterialData> materials;
@@ -46,6 +49,19 @@ private:
 	OwnedBuffer positions, attributes, indices, instances, material_buffer, light_buffer;
 	OwnedTexture textures, sky;
 };
+
+// A rectangle of a surface, seen by a pixel each `width` x `height` parts of it.
+struct GiTestPatch {
+	Vector3 center_m;
+	Vector3 u_m; // its sides
+	Vector3 v_m;
+	Vector3 normal;
+	Vector3 eye_m;
+	uint32_t width = 1;
+	uint32_t height = 1;
+};
+// Irradiance / pi of its pixels, row by row, as an opaque surface there would read it from GI.
+std::vector<Vector3> gather_patch(RenderingDevice &p_device, Sdfgi &r_sdfgi, const GiTestPatch &p_patch);
 
 // Irradiance / pi at points with normals, as an opaque surface there would read it from GI: fills a depth and a normal image of one
 // row and runs the gather. View direction: the normal.

@@ -142,6 +142,34 @@ TEST_SUITE("gpu") {
 		}
 	}
 
+	// Shelves with twice as many surface cells as a cascade usually has room for.
+	TEST_CASE("a scene of many surfaces gets a world with room for it") {
+		GpuFixture fixture;
+		GiTestScene scene(fixture.device());
+		const uint32_t white = scene.add_material(Vector3(0.5f));
+		for (int i = -4; i < 4; i++) {
+			scene.add_box(Vector3(-1.5f, 0.37f * float(i), -1.5f), Vector3(1.5f, 0.37f * float(i) + 0.02f, 1.5f), white);
+		}
+		scene.set_sky(Vector3(1.0f), Vector3(1.0f));
+		SdfgiSettings settings = small_settings(SdfgiYScale::SCALE_100_PERCENT);
+		settings.cascades = 1;
+		settings.grid_size_cells = 32;
+		settings.min_cell_size_m = 0.1f;
+		settings.frames_to_converge = 2;
+		const GiSceneView view = scene.upload();
+		Sdfgi sdfgi(fixture.device());
+		run_sdfgi(fixture.device(), sdfgi, settings, view, Vector3(0.0f), 1);
+		const uint64_t bytes = sdfgi.stats().bytes;
+		run_sdfgi(fixture.device(), sdfgi, settings, view, Vector3(0.0f), 64);
+		const GiStats stats = sdfgi.stats();
+		CHECK(stats.bytes > bytes);
+		CHECK(stats.surface_cells > 32 * 32 * 32 / 8);
+		CHECK(stats.gather_rays[5] == 0); // no cell without memory
+		CHECK(stats.gather_rays[1] > 0);
+		// The top sees the sky alone; it was the last to get a place.
+		CHECK(gather_at(fixture.device(), sdfgi, { { 0.3f, 1.13f, 0.3f } }, { { 0, 1, 0 } })[0].x == doctest::Approx(1.0f).epsilon(0.003));
+	}
+
 	TEST_CASE("opposite walls under a symmetric sky agree") {
 		GpuFixture fixture;
 		GiTestScene scene(fixture.device());

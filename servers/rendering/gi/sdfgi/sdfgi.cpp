@@ -73,6 +73,9 @@ struct Sdfgi::Impl {
 	uint64_t peak_rays = 0; // in a frame, since anything changed
 	// Of the frame that was last recorded:
 	bool checks_light = false; // its counts are to be read
+	bool checks_room = false; // whether the world holds a scene that is new to it
+	GiWorldRoom least_room; // what the scene has needed
+	bool needs_room = false; // more than the world has
 	bool may_settle = false; // it traced no more than the probes' rays
 	GiStats stats;
 
@@ -92,6 +95,7 @@ struct Sdfgi::Impl {
 	void restart(bool p_geometry);
 	void read_fetches();
 	void read_gather_counts();
+	void check_room(const std::vector<shader::CascadeCounts> &p_counts);
 };
 
 Sdfgi::Sdfgi(RenderingDevice &p_device) :
@@ -103,7 +107,8 @@ Sdfgi::~Sdfgi() = default;
 void Sdfgi::Impl::create(const SdfgiSettings &p_settings) {
 	settings = p_settings;
 	world.reset();
-	world = std::make_unique<GiWorld>(device, GiWorldDesc{ .cascades = settings.cascades, .grid_size = settings.grid_size_cells, .min_cell_m = settings.min_cell_size_m, .y_multiplier = sdfgi_y_multiplier(settings.y_scale) });
+	world = std::make_unique<GiWorld>(device, GiWorldDesc{ .cascades = settings.cascades, .grid_size = settings.grid_size_cells, .min_cell_m = settings.min_cell_size_m, .y_multiplier = sdfgi_y_multiplier(settings.y_scale), .least_room = least_room });
+	needs_room = false;
 	probes_axis = settings.grid_size_cells / settings.probe_spacing_cells + 1;
 	const uint32_t probes = probes_in_cascade() * settings.cascades;
 	const uint32_t rows = (probes + PROBE_TILES_A_ROW - 1) / PROBE_TILES_A_ROW;
@@ -225,7 +230,10 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	live.count_every_frame = p_settings.count_every_frame;
 	live.count_fetches = p_settings.count_fetches;
 	const bool relight = live.bounce_feedback != i.settings.bounce_feedback || live.read_sky_light != i.settings.read_sky_light;
-	if (i.world == nullptr || live != p_settings) {
+	if (live.grid_size_cells != p_settings.grid_size_cells) {
+		i.least_room = {};
+	}
+	if (i.world == nullptr || live != p_settings || i.needs_room) {
 		i.create(p_settings);
 		r_recorder.clear_texture(i.radiance_atlas);
 		r_recorder.clear_texture(i.irradiance_atlas);
@@ -271,6 +279,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	if (!stale.empty()) {
 		i.world->collect_emitters(r_recorder);
 	}
+	i.checks_room = triangles_changed;
 	i.checks_light = false;
 	i.stats.rays = i.converged || p_settings.count_every_frame ? 0 : i.peak_rays;
 	if (!i.converged) {
@@ -295,6 +304,14 @@ void Sdfgi::Impl::read_gather_counts() {
 	picture_counted = true;
 }
 
+// A scene that needs more room than the world has gets a larger world in the next frame.
+void Sdfgi::Impl::check_room(const std::vector<shader::CascadeCounts> &p_counts) {
+	if (const std::optional<GiWorldRoom> room = world->check_room(p_counts)) {
+		least_room = *room;
+		needs_room = true;
+	}
+}
+
 void Sdfgi::after_frame() {
 	Impl &i = *impl;
 	i.stats.fetches.clear();
@@ -305,6 +322,10 @@ void Sdfgi::after_frame() {
 		i.read_gather_counts();
 	}
 	i.gathered = false;
+	if (i.world != nullptr && i.checks_room && !i.checks_light) {
+		i.check_room(i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle()));
+	}
+	i.checks_room = false;
 	if (!i.checks_light || i.world == nullptr) {
 		return;
 	}
@@ -315,20 +336,15 @@ void Sdfgi::after_frame() {
 	if (statistics[0].met[GATHER_MET_SKY] + statistics[0].met[GATHER_MET_RECORD] > 0) { // a frame that traced
 		std::copy(std::begin(statistics[0].met), std::end(statistics[0].met), i.stats.gather_rays.begin());
 	}
-	i.stats.surface_cells = 0;
-	i.stats.listed_triangles = 0;
-	i.stats.surface_records = 0;
+	i.stats.surface_cells = i.stats.listed_triangles = i.stats.plain_cells = i.stats.unlisted_cells = i.stats.surface_records = 0;
 	for (uint32_t c = 0; c < i.settings.cascades; c++) {
 		i.stats.surface_cells += counts[c].cells;
 		i.stats.surface_records += counts[c].records;
 		i.stats.listed_triangles += counts[c].triangles;
-		if (counts[c].triangles > i.world->parameters().triangle_capacity) {
-			log_warning_once(fmt::format("sdfgi triangles {}", c), fmt::format("SDFGI cascade {} has {} triangles in its cells' lists, more than its {}: some surfaces are as coarse as their voxels; raise sdfgi_min_cell_size", c, counts[c].triangles, i.world->parameters().triangle_capacity));
-		}
-		if (counts[c].cells > i.world->parameters().cell_capacity || counts[c].records > i.world->parameters().record_capacity) {
-			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
-		}
+		i.stats.plain_cells += counts[c].plain_cells;
+		i.stats.unlisted_cells += counts[c].unlisted_cells;
 	}
+	i.check_room(counts);
 	if (i.may_settle && i.frame % CHECK_PERIOD_FRAMES == 0) {
 		i.light_settled = i.light_settled || statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.frame >= MAX_FRAMES;
 		i.converged = i.light_settled && i.frame >= i.frames_of_probes();

@@ -33,7 +33,6 @@ layout(push_constant, scalar) uniform AllocatePush {
 uvec2 walk_brick(uint brick_in_cascade, uvec2 next, bool write) {
 	uint last_cell = cell_end(constants.cascade);
 	uint last_record = record_end(constants.cascade);
-	uint last_triangle = (constants.cascade + 1u) * world.triangle_capacity;
 	uint brick = brick_base(constants.cascade) + brick_in_cascade;
 	uint axis = world.grid_size / WORLD_BRICK_CELLS;
 	uvec3 corner = 4u * uvec3(brick_in_cascade % axis, (brick_in_cascade / axis) % axis, brick_in_cascade / (axis * axis));
@@ -54,7 +53,7 @@ uvec2 walk_brick(uint brick_in_cascade, uvec2 next, bool write) {
 				// Flat until mark_flat_cells finds otherwise; a cell whose records have no room is not.
 				cells[cell].records = (record << 6) | faces | (record + uint(bitCount(faces)) <= last_record ? WORLD_CELL_FLAT : 0u);
 				// list_triangles counts up.
-				cells[cell].triangles = listed && triangle + triangles <= last_triangle ? triangle << 6 : WORLD_NOT_LISTED;
+				cells[cell].triangles = listed && triangle + triangles <= world.triangle_capacity ? triangle << WORLD_LIST_COUNT_BITS : WORLD_NOT_LISTED;
 				for (uint left = faces; left != 0u && record < last_record; left &= left - 1u) {
 					records[record].cell = (constants.cascade << 27) | (uint(findLSB(left)) << 24) | (storage.z << 16) | (storage.y << 8) | storage.x;
 					record++;
@@ -78,7 +77,7 @@ void main() {
 	uvec2 next;
 	next.x = record_base(constants.cascade) + scan_group(sum.x);
 	uint record_total = group_total;
-	next.y = constants.cascade * world.triangle_capacity + scan_group(sum.y);
+	next.y = scan_group(sum.y); // from the cascade's first on
 	uint triangle_total = group_total;
 	for (uint i = 0u; i < each; i++) {
 		next += walk_brick(first + i, next, true);
@@ -86,6 +85,9 @@ void main() {
 	if (gl_LocalInvocationIndex == 0u) {
 		counts[constants.cascade].records = record_total;
 		counts[constants.cascade].triangles = triangle_total;
+		// mark_plain_cells counts up.
+		counts[constants.cascade].plain_cells = 0u;
+		counts[constants.cascade].unlisted_cells = 0u;
 		counts[constants.cascade].light_groups = uvec3(clamp((min(record_total, world.record_capacity) + 7u) / 8u, 1u, 65535u), 1u, 1u);
 	}
 }

@@ -1,56 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A triangle cut to a cell (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974).
+// A triangle cut to a cell.
 #ifndef CLIP_TRIANGLE_INC
 #define CLIP_TRIANGLE_INC
+#include "servers/rendering/gi/world/clip_polygon_inc.glsl"
 #include "servers/rendering/gi/world/voxel_triangle_inc.glsl"
 
-// A triangle cut by six planes has at most nine corners.
-struct Polygon {
-	vec3 v[9];
-	uint count;
-};
-
-// Keeps what lies on `side` (1: above, -1: below) of the limit, and with `closed` what lies on it.
-Polygon cut(Polygon polygon, uint axis, float limit, float side, bool closed) {
-	Polygon result;
-	result.count = 0u;
-	for (uint i = 0u; i < polygon.count; i++) {
-		vec3 a = polygon.v[i];
-		vec3 b = polygon.v[i + 1u == polygon.count ? 0u : i + 1u];
-		float da = (a[axis] - limit) * side;
-		float db = (b[axis] - limit) * side;
-		bool keeps_a = da > 0.0 || (closed && da == 0.0);
-		bool keeps_b = db > 0.0 || (closed && db == 0.0);
-		if (keeps_a && result.count < 9u) {
-			result.v[result.count++] = a;
-		}
-		if (keeps_a != keeps_b && result.count < 9u) {
-			result.v[result.count++] = mix(a, b, da / (da - db));
-		}
-	}
-	return result;
-}
-
-// The part of the triangle in a cell and `margin` around it, cell-local. Without a margin each point is in one cell.
+// The part of the triangle in a cell and `margin` around it, cell-local.
 Polygon clip_triangle(VoxelTriangle triangle, ivec3 cell, float margin) {
-	Polygon polygon;
-	for (uint i = 0u; i < 3u; i++) {
-		polygon.v[i] = triangle.v[i] - vec3(cell);
-	}
-	polygon.count = 3u;
-	for (uint axis = 0u; axis < 3u && polygon.count > 0u; axis++) {
-		polygon = cut(polygon, axis, -margin, 1.0, true);
-		polygon = cut(polygon, axis, 1.0 + margin, -1.0, margin > 0.0);
-	}
-	return polygon;
-}
-
-float polygon_area(Polygon polygon) {
-	float area = 0.0;
-	for (uint i = 2u; i < polygon.count; i++) {
-		area += 0.5 * length(cross(polygon.v[i - 1u] - polygon.v[0], polygon.v[i] - polygon.v[0]));
-	}
-	return area;
+	vec3 corner = vec3(cell);
+	return clip_to_unit_cube(triangle.v[0] - corner, triangle.v[1] - corner, triangle.v[2] - corner, margin);
 }
 
 #endif

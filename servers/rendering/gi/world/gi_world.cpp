@@ -26,7 +26,6 @@ constexpr uint32_t STRETCH_CAPACITY = 131072; // 512 triangles that fill a casca
 constexpr uint32_t STORED_TRIANGLES = (128u << 20) / WORLD_TRIANGLE_BYTES;
 
 constexpr uint32_t EMITTER_CAPACITY = 16384;
-constexpr uint32_t STATE_BYTES = 2 * 12; // record_rays_inc.glsl: two vec3 a record
 constexpr uint32_t LIGHT_BYTES = 16;
 
 void bind_materials(ComputePass &r_pass, const GiSceneView &p_scene) {
@@ -42,10 +41,10 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	const uint32_t cell_count = p_desc.grid_size * p_desc.grid_size * p_desc.grid_size;
 	params.cascade_count = p_desc.cascades;
 	params.grid_size = p_desc.grid_size;
-	// An eighth of the grid: a room's walls take a tenth at most; doc/sdfgi.md, "Capacity".
-	params.cell_capacity = cell_count / 8;
-	params.record_capacity = cell_count / 6;
-	params.triangle_capacity = cell_count / 2;
+	const GiWorldRoom usual = usual_room();
+	params.cell_capacity = std::max(usual.cells, p_desc.least_room.cells);
+	params.record_capacity = std::max(usual.records, p_desc.least_room.records);
+	params.triangle_capacity = std::max(usual.triangles, p_desc.least_room.triangles);
 	params.sky_scale = 1.0f;
 	params.hole_margin_cells = 8;
 	for (uint32_t i = 0; i < p_desc.cascades; i++) {
@@ -63,7 +62,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	records = make_buffer("gi_world.records", n * params.record_capacity * sizeof(shader::WorldRecord));
 	record_light[0] = make_buffer("gi_world.record_light0", n * params.record_capacity * LIGHT_BYTES);
 	record_light[1] = make_buffer("gi_world.record_light1", n * params.record_capacity * LIGHT_BYTES);
-	record_state = make_buffer("gi_world.record_state", n * params.record_capacity * STATE_BYTES);
+	record_state = make_buffer("gi_world.record_state", n * params.record_capacity * RECORD_STATE_BYTES);
 	counts = make_buffer("gi_world.counts", WORLD_MAX_CASCADES * sizeof(shader::CascadeCounts), BUFFER_STORAGE | BUFFER_INDIRECT);
 	emitters = make_buffer("gi_world.emitters", EMITTER_CAPACITY * sizeof(shader::Emitter));
 	emitter_count = make_buffer("gi_world.emitter_count", 8);
@@ -194,6 +193,10 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	if (groups > 0) {
 		dispatch(voxelize("gi_world.mark_flat_cells", Shader::MARK_FLAT_CELLS).read_write(WORLD_RECORDS, records).read_write(OUT_0, cells), groups);
 	}
+	ComputePass plain = r_recorder.compute("gi_world.mark_plain_cells", Shader::MARK_PLAIN_CELLS);
+	plain.uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base).read(WORLD_RECORDS, records);
+	plain.read(WORLD_CELL_TRIANGLES, cell_triangles).read(WORLD_TRIANGLES, world_triangles).read_write(OUT_0, counts).read_write(OUT_1, cells);
+	plain.constants(constants).dispatch_groups(1024);
 }
 
 // Rays may pass several cascades, so all must be built.

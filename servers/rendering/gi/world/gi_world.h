@@ -7,15 +7,26 @@
 #include "servers/rendering/gi/world/world_io.h"
 #include "servers/rendering/gpu_scene.h"
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace lucent {
+
+// What a cascade has memory for. Cells that triangles touch, their records, triangles in lists of cells.
+struct GiWorldRoom {
+	uint32_t cells = 0;
+	uint32_t records = 0;
+	uint32_t triangles = 0;
+	bool operator==(const GiWorldRoom &) const = default;
+};
 
 struct GiWorldDesc {
 	uint32_t cascades = 4; // 1 to WORLD_MAX_CASCADES
 	uint32_t grid_size = 128; // cells an axis, a power of two, 32 to 256
 	float min_cell_m = 0.2f; // cascade c: min_cell_m * 2^c
 	float y_multiplier = 1.5f; // cells are flatter than wide by this
+	GiWorldRoom least_room; // more than what suits most scenes: an eighth of the grid's cells, a sixth as records, half as triangles
 	bool operator==(const GiWorldDesc &) const = default;
 };
 
@@ -67,10 +78,16 @@ public:
 	BufferHandle brick_cell_base_handle() const { return brick_cell_base; }
 	BufferHandle records_handle() const { return records; }
 	const shader::GiWorldParams &parameters() const { return params; }
+	// The room that a world needs for the scene whose counts were read back, an eighth more than was wanted; none where this one suffices, or, with a
+	// warning, where it cannot grow: at most four times as much as suits most scenes.
+	std::optional<GiWorldRoom> check_room(std::span<const shader::CascadeCounts> p_counts) const;
 	uint32_t record_capacity() const { return params.record_capacity; }
 	uint64_t size_bytes() const { return bytes + world_triangle_bytes; }
+	static constexpr uint32_t RECORD_STATE_BYTES = 2 * 12; // record_rays_inc.glsl: two vec3 a record
 
 private:
+	GiWorldRoom usual_room() const;
+	GiWorldRoom largest_room() const;
 	OwnedBuffer make_buffer(const char *p_name, uint64_t p_size_bytes, uint32_t p_usage = BUFFER_STORAGE);
 	void clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count, uint32_t p_value = 0);
 	void build_sdf(PassRecorder &r_recorder, uint32_t p_cascade);

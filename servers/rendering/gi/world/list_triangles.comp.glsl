@@ -37,5 +37,5 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	// Rounding must not lose a triangle that touches the cell.
 	octants = octants == 0u ? 255u : octants;
 	uint list = atomicAdd(cell_words[index * 4u + 3u], 1u);
-	cell_triangles[(list >> 6) + (list & 63u)] = triangle.world_triangle | (octants << WORLD_TRIANGLE_NUMBER_BITS);
+	cell_triangles[constants.cascade * world.triangle_capacity + (list >> WORLD_LIST_COUNT_BITS) + (list & WORLD_LIST_COUNT_MASK)] = triangle.world_triangle | (octants << WORLD_TRIANGLE_NUMBER_BITS);
 }

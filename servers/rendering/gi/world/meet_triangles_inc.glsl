@@ -8,8 +8,17 @@
 #define HIT_BACK 6u // of a one-sided surface
 #define HIT_BITS 7u // the cell lists no triangles: any of its surfaces may have been met
 
+// Does a cell know its triangles, by a list or as one plane?
 bool cell_is_listed(WorldCell cell) {
 	return cell.triangles != WORLD_NOT_LISTED;
+}
+
+uint first_in_list(uint cascade, WorldCell cell) {
+	return cascade * world.triangle_capacity + (cell.triangles >> WORLD_LIST_COUNT_BITS);
+}
+
+bool cell_is_plain(WorldCell cell) {
+	return cell.triangles != WORLD_NOT_LISTED && (cell.triangles & WORLD_LIST_COUNT_MASK) == WORLD_PLAIN;
 }
 
 // Is a point of a triangle's plane inside of it, or no further than `growth` outside of an edge?
@@ -50,14 +59,33 @@ float triangle_growth_m(uint cascade) {
 	return WORLD_TRIANGLE_GROWTH_CELLS * world.cascades[cascade].cell_m.y;
 }
 
+// Where the line o + t * d meets a plain cell's plane within t's range, of which d passes the cell; negative: it does not. The planes of two neighbours may be
+// rounded differently, which a line along them must not slip through.
+float meet_plane(WorldCell cell, vec3 o, vec3 d, vec2 range, float growth, out float r_along, out uint r_flags) {
+	count_fetch(32u);
+	uint number = cell.triangles >> WORLD_LIST_COUNT_BITS;
+	vec4 plane = world_triangles[number * 4u];
+	vec4 first = world_triangles[number * 4u + 1u];
+	r_along = dot(plane.xyz, d);
+	r_flags = floatBitsToUint(first.w);
+	float t = dot(plane.xyz, first.xyz - o) / r_along;
+	float slack = min(growth + 1e-6 * abs(plane.w) / abs(r_along), 64.0 * growth);
+	// Written so that NaN fails.
+	return t >= max(range.x - slack, 0.0) && t <= range.y + slack ? t : -1.0;
+}
+
+// The face that a met triangle shows a ray, or HIT_BACK.
+uint met_face(uint flags, float along) {
+	uint front = flags & WORLD_TRIANGLE_FACE;
+	return along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+}
+
 // A point of an alpha-tested triangle counts where its sub-voxel of the cell at `at` (world-fixed) is solid.
 bool is_solid_in_cell(uint cascade, WorldCell cell, ivec3 at, vec3 position_m) {
 	vec3 p = (position_m / world.cascades[cascade].cell_m - vec3(at)) * float(WORLD_SUB_VOXELS);
 	uvec3 s = uvec3(clamp(floor(p), vec3(0.0), vec3(3.0)));
 	return bit_is_set(cell.bits, s.x + 4u * s.y + 16u * s.z);
 }
-
-#define WORLD_TRIANGLE_NUMBER_MASK ((1u << WORLD_TRIANGLE_NUMBER_BITS) - 1u)
 
 // Bit of the octant that a sub-voxel (0..3) lies in.
 uint octant_of_sub_voxel(ivec3 at) {
@@ -68,8 +96,8 @@ uint octant_of_sub_voxel(ivec3 at) {
 // Returns the way to it, or a negative number.
 float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out uint r_face) {
 	float growth = triangle_growth_m(cascade);
-	uint first = cell.triangles >> 6;
-	uint count = cell.triangles & 63u;
+	uint first = first_in_list(cascade, cell);
+	uint count = cell.triangles & WORLD_LIST_COUNT_MASK;
 	float way_m = -1.0;
 	r_face = HIT_BACK;
 	for (uint i = 0u; i < count; i++) {
@@ -88,8 +116,7 @@ float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 
 		if ((flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
 			continue;
 		}
-		uint front = flags & WORLD_TRIANGLE_FACE;
-		uint face = along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+		uint face = met_face(flags, along);
 		// Of equally near ones the lowest face: neither the list's order nor the triangles' matters.
 		r_face = t == way_m ? min(r_face, face) : face;
 		between_m.y = t;
@@ -101,8 +128,8 @@ float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 
 // Does the stretch from `from_m` to `to_m` cross any of a listed cell's triangles that touch `octants`?
 bool crosses_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 from_m, vec3 to_m) {
 	float growth = triangle_growth_m(cascade);
-	uint first = cell.triangles >> 6;
-	uint count = cell.triangles & 63u;
+	uint first = first_in_list(cascade, cell);
+	uint count = cell.triangles & WORLD_LIST_COUNT_MASK;
 	bool crosses = false;
 	for (uint i = 0u; i < count && !crosses; i++) {
 		count_fetch(4u);

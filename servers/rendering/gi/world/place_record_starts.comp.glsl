@@ -110,8 +110,8 @@ vec3 outermost_triangle(uint cascade, WorldCell cell, ivec3 at, uint face, vec3 
 	d[axis] = cell_m[axis];
 	float sign_out = (face & 1u) == 0u ? 1.0 : -1.0;
 	vec3 result = vec3(0.0);
-	for (uint i = 0u; i < (cell.triangles & 63u); i++) {
-		uint number = world_cell_triangles[(cell.triangles >> 6) + i] & WORLD_TRIANGLE_NUMBER_MASK;
+	for (uint i = 0u; i < (cell.triangles & WORLD_LIST_COUNT_MASK); i++) {
+		uint number = world_cell_triangles[first_in_list(cascade, cell) + i] & WORLD_TRIANGLE_NUMBER_MASK;
 		float along;
 		uint flags;
 		float t = meet_triangle(number, (vec3(at) + place) * cell_m, d, vec2(0.0, 1.002), 0.0, along, flags);

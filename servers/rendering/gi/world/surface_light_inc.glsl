@@ -29,12 +29,12 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler worl
 #define RAY_MET_NOTHING 0xFFFFFFFFu
 #define RAY_MET_SKY 0xFFFFFFFEu
 
-// Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up. As for rays, the
+// Nothing solid between two points of one cascade at most three cells apart: every cell on the way is looked up. As for rays, the
 // solid sub-voxels of a listed or flat cell only count where the way crosses a surface.
 bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
-	vec3 scale = float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
-	vec3 a = from_m * scale;
-	vec3 way = to_m * scale - a;
+	vec3 cell_m = world.cascades[cascade].cell_m;
+	vec3 a = from_m / cell_m;
+	vec3 way = to_m / cell_m - a;
 	way = mix(way, vec3(1e-6), lessThan(abs(way), vec3(1e-6)));
 	vec3 inverse = 1.0 / way;
 	ivec3 direction_sign = ivec3(sign(way));
@@ -43,30 +43,28 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), way) - a) * inverse;
 	float t = 0.0;
 	for (uint i = 0u; i < SHORT_WAY_MAX_CELLS; i++) {
-		ivec3 at = walk.at >> 2;
-		WorldCell cell = WORLD_CELL_ON_WAY(cascade, at);
-		bool is_listed = cell_is_listed(cell);
-		bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
-		uint octants = 0u;
-		// Through the cell: at most ten sub-voxels.
-		for (uint k = 0u; k < 12u && t < 1.0 && walk.at >> 2 == at; k++) {
-			float t_leave = walk_leaves(walk);
-			ivec3 local = walk.at & 3;
-			if (bit_is_set(cell.bits, uint(local.x + 4 * local.y + 16 * local.z))) {
-				octants |= octant_of_sub_voxel(local);
-				if (!is_listed && (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(at), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(at)))) {
-					return false;
-				}
+		WorldCell cell = WORLD_CELL_ON_WAY(cascade, walk.at);
+		float t_leave = min(walk_leaves(walk), 1.0);
+		if (cell_is_plain(cell)) {
+			vec3 way_m = to_m - from_m;
+			float along;
+			uint flags;
+			if (meet_plane(cell, from_m, way_m, vec2(t, t_leave), triangle_growth_m(cascade) / max(length(way_m), 1e-6), along, flags) >= 0.0) {
+				return false;
 			}
-			t = t_leave;
-			walk_on(walk, inverse, direction_sign);
+		} else if ((cell.bits.x | cell.bits.y) != 0u) {
+			vec3 entry = (a + way * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
+			uint octants;
+			float met = trace_sub_voxels(cascade, cell, entry, way * float(WORLD_SUB_VOXELS), inverse / float(WORLD_SUB_VOXELS), 1.0 - t, octants);
+			if (met >= 0.0 && (!cell_is_listed(cell) || crosses_triangles(cascade, cell, octants, walk.at, from_m, to_m))) {
+				return false;
+			}
 		}
-		if (is_listed && octants != 0u && crosses_triangles(cascade, cell, octants, at, from_m, to_m)) {
-			return false;
-		}
+		t = t_leave;
 		if (t >= 1.0) {
 			return true;
 		}
+		walk_on(walk, inverse, direction_sign);
 	}
 	return false;
 }
@@ -119,14 +117,16 @@ struct HitQuery {
 	vec3 free_m;
 	bool asks_ways;
 	float least_facing;
+	bool any_face; // not only the one that was met, but emitters for emitters and others for others
+	bool is_emitter;
 };
 
 // How much a record has to do with a hit; 0: nothing.
 float record_weight(HitQuery query, WorldRecord record) {
 	vec3 normal = record_normal(record);
 	float facing = -dot(normal, query.direction);
-	bool shown = query.hit.face == HIT_BITS ? facing > query.least_facing : query.hit.face == record_face(record);
-	if (!shown || !record_has_start(record)) {
+	bool shown = query.hit.face == HIT_BITS || query.any_face ? facing > query.least_facing : query.hit.face == record_face(record);
+	if (!shown || !record_has_start(record) || (query.any_face && (record.emission != 0u) != query.is_emitter)) {
 		return 0.0;
 	}
 	if (query.asks_ways && !short_way_is_free(query.hit.cascade, query.free_m, record_start_m(record))) {
@@ -151,21 +151,37 @@ vec3 lifted_point(HitQuery query) {
 	return short_way_is_free(query.hit.cascade, query.free_m, lifted_m) ? lifted_m : query.free_m;
 }
 
-HitQuery neighbour_query(HitQuery query) {
+// From where the cells around a hit are asked, in turn while none answers: off the met surface, then further and further back on the ray, which
+// came all that way: what stands between the hit and a record hides less and less. At last what faces the ray answers for the face that was met: a
+// cell has one record of a face, where a folded cloth has two sides.
+#define NEIGHBOUR_VIEWS 5u
+HitQuery neighbour_query(HitQuery query, uint view) {
 	query.asks_ways = true;
-	query.free_m = lifted_point(query);
-	query.least_facing = -0.5;
+	query.any_face = view >= 3u;
+	query.least_facing = query.any_face ? 0.0 : -0.5;
+	if (view == 0u || view == 3u) {
+		query.free_m = lifted_point(query);
+	} else {
+		float back_m = 2.0 * float(query.any_face ? view - 3u : view) * sub_voxel_along_m(query.hit.cascade, query.direction);
+		query.free_m = query.hit.position_m - min(back_m, 0.999 * query.hit.t_m) * query.direction;
+	}
 	return query;
 }
 
 // Those of a cell's faces whose records may answer.
 uint answering_faces(HitQuery query, uint packed_records) {
 	uint faces = packed_records & 63u;
-	return query.hit.face == HIT_BITS ? faces : faces & (1u << query.hit.face);
+	return query.hit.face == HIT_BITS || query.any_face ? faces : faces & (1u << query.hit.face);
 }
 
 uint record_of_face(uint packed_records, uint face) {
 	return cell_first_record(packed_records) + uint(bitCount(packed_records & ((1u << face) - 1u)));
+}
+
+HitQuery first_query(WorldHit hit, vec3 direction, uint packed_records) {
+	uint faces = packed_records & 63u;
+	bool is_emitter = hit.face != HIT_BITS && (faces & (1u << hit.face)) != 0u && stored_record(record_of_face(packed_records, hit.face)).emission != 0u;
+	return HitQuery(hit, direction, free_point_before(hit, direction), has_several(faces), 0.0, false, is_emitter);
 }
 
 // Of 3 x 3 x 3 cells.
@@ -195,15 +211,17 @@ uint pick_record(WorldHit hit, vec3 direction, uint seed) {
 		return picked;
 	}
 	uint packed_records = stored_cell(hit.cell).records;
-	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), has_several(packed_records & 63u), 0.0);
+	HitQuery query = first_query(hit, direction, packed_records);
 	float weight_sum = 0.0;
 	picked = pick_in_cell(query, packed_records, seed, weight_sum, picked);
 	if (picked != RAY_MET_NOTHING) {
 		return picked;
 	}
-	query = neighbour_query(query);
-	for (uint i = 0u; i < 27u; i++) {
-		picked = pick_in_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)).records, seed, weight_sum, picked);
+	for (uint k = 0u; k < NEIGHBOUR_VIEWS && picked == RAY_MET_NOTHING; k++) {
+		HitQuery view = neighbour_query(query, k);
+		for (uint i = 0u; i < 27u; i++) {
+			picked = pick_in_cell(view, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)).records, seed, weight_sum, picked);
+		}
 	}
 	return picked;
 }
@@ -232,14 +250,16 @@ vec3 hit_radiance(WorldHit hit, vec3 direction) {
 		return vec3(0.0);
 	}
 	WorldCell cell = stored_cell(hit.cell);
-	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), has_several(cell.records & 63u), 0.0);
+	HitQuery query = first_query(hit, direction, cell.records);
 	vec4 sum = light_of_cell(query, cell);
 	if (sum.w > 0.0) {
 		return sum.rgb / sum.w;
 	}
-	query = neighbour_query(query);
-	for (uint i = 0u; i < 27u; i++) {
-		sum += light_of_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)));
+	for (uint k = 0u; k < NEIGHBOUR_VIEWS && sum.w <= 0.0; k++) {
+		HitQuery view = neighbour_query(query, k);
+		for (uint i = 0u; i < 27u; i++) {
+			sum += light_of_cell(view, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)));
+		}
 	}
 	return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
 }

@@ -3,7 +3,7 @@
 // their sub-voxels. Every point of a ray is looked up in the finest cascade that holds it.
 //
 // Solid bits reach up to a sub-voxel beyond the surface. They only say where a surface may be: in a cell that lists its triangles (nearly
-// all) a ray that comes through a solid sub-voxel meets the triangles themselves. In other flat cells it stops where it crosses the
+// all) a ray that comes through a solid sub-voxel meets the triangles themselves, in one that a plane covers from side to side the plane. In other flat cells it stops where it crosses the
 // plane of one of the cell's records, or is behind all of them. Only cells of many triangles that aren't flat are as large as their bits.
 //
 // No leak: triangles set every sub-voxel that they touch, so any path through face-neighbouring sub-voxels that crosses a
@@ -150,7 +150,7 @@ float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3
 		if (!solid) {
 			break;
 		}
-		float t_leave = walk_leaves(walk);
+		float t_leave = min(walk_leaves(walk), t_max);
 		if (!by_planes || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
 			return t;
 		}
@@ -243,20 +243,29 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			}
 			uint index = find_cell(cascade, storage_from_world_cell(walk.at + c.origin_cells));
 			if (index < WORLD_LOST_CELL) {
-				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
 				WorldCell cell = stored_cell(index);
-				uint octants;
-				float way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t, octants);
-				result.hit = way >= 0.0;
-				result.t_m = t + way;
-				result.face = HIT_BITS;
-				if (result.hit && cell_is_listed(cell)) {
-					// As far beyond the cell as its list reaches.
-					float growth = triangle_growth_m(cascade);
-					vec2 between_m = vec2(t - growth, min(walk_leaves(walk) + growth, t_max_m));
-					result.t_m = meet_triangles(cascade, cell, octants, walk.at + c.origin_cells, origin_m, d, between_m, result.face);
-					result.hit = result.t_m >= 0.0;
+				float t_leave = min(walk_leaves(walk), t_max_m);
+				float way = -1.0;
+				if (cell_is_plain(cell)) {
+					float along;
+					uint flags;
+					way = meet_plane(cell, origin_m, d, vec2(t, t_leave), triangle_growth_m(cascade), along, flags);
+					result.face = met_face(flags, along);
+				} else {
+					vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
+					uint octants;
+					way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t, octants);
+					result.face = HIT_BITS;
+					if (way >= 0.0 && cell_is_listed(cell)) {
+						// As far beyond the cell as its list reaches.
+						float growth = triangle_growth_m(cascade);
+						way = meet_triangles(cascade, cell, octants, walk.at + c.origin_cells, origin_m, d, vec2(t - growth, min(t_leave + growth, t_max_m)), result.face);
+					} else if (way >= 0.0) {
+						way += t;
+					}
 				}
+				result.hit = way >= 0.0;
+				result.t_m = way;
 			} else if (index == WORLD_LOST_CELL) {
 				result.hit = true;
 				result.t_m = t;

@@ -37,12 +37,19 @@
 #define WORLD_CELL_FLAT 0x80000000u
 
 // A cell that at most this many triangles touch lists them: rays meet the triangles themselves there, not the solid bits.
-#define WORLD_LISTED_TRIANGLES 62u
+#define WORLD_LISTED_TRIANGLES 254u
 #define WORLD_NOT_LISTED 0xFFFFFFFFu
+// Instead of a count: one plane covers the cell from side to side.
+#define WORLD_PLAIN 255u
+#define WORLD_LIST_COUNT_BITS 8
+#define WORLD_LIST_COUNT_MASK 255u
+// No surface of a plain cell is further off its plane than this, in cells; as much as triangles are grown by.
+#define WORLD_PLAIN_CELLS WORLD_TRIANGLE_GROWTH_CELLS
 // Triangles are this much larger for rays, in cells: what is cracked by less is closed. As much as coverage is grown, so that lists are complete.
 #define WORLD_TRIANGLE_GROWTH_CELLS (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
 #define WORLD_TRIANGLE_BYTES 64
 #define WORLD_TRIANGLE_NUMBER_BITS 24
+#define WORLD_TRIANGLE_NUMBER_MASK ((1u << WORLD_TRIANGLE_NUMBER_BITS) - 1u)
 // The lowest bits: the face that the front mostly looks at.
 #define WORLD_TRIANGLE_FACE 7u
 #define WORLD_TRIANGLE_DOUBLE_SIDED 8u
@@ -91,7 +98,7 @@ struct GiWorldParams {
 struct WorldCell {
 	uvec2 bits; // sub-voxel x + 4 y + 16 z
 	uint records; // flat << 31 | index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
-	uint triangles; // index of the first in WORLD_CELL_TRIANGLES << 6 | count, or WORLD_NOT_LISTED: more than fit, the bits decide
+	uint triangles; // index of the first in the cascade's part of WORLD_CELL_TRIANGLES << 8 | count; number in WORLD_TRIANGLES of one whose plane covers the cell << 8 | WORLD_PLAIN; WORLD_NOT_LISTED: more than fit, the bits decide
 };
 struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
@@ -115,6 +122,8 @@ struct CascadeCounts {
 	uint cells;
 	uint records;
 	uint triangles; // in lists of cells
+	uint plain_cells;
+	uint unlisted_cells; // that have records but no room for a list
 	uvec3 light_groups; // indirect arguments: a work group for eight records
 };
 struct VoxelizeConstants {
