@@ -6,6 +6,7 @@
 #include "modules/scene/environment.h"
 #include "modules/scene/light_3d.h"
 #include "modules/scene/sky.h"
+#include "modules/scene/viewport.h"
 #include "modules/scene/world_environment.h"
 
 namespace lucent {
@@ -14,6 +15,9 @@ template <typename T>
 static bool has_node_of(const scene::Node &p_node) {
 	if (dynamic_cast<const T *>(&p_node) != nullptr) {
 		return true;
+	}
+	if (const scene::Viewport *viewport = dynamic_cast<const scene::Viewport *>(&p_node); viewport != nullptr && viewport->has_separate_world()) {
+		return false;
 	}
 	for (const std::unique_ptr<scene::Node> &child : p_node.get_children()) {
 		if (has_node_of<T>(*child)) {

@@ -8,6 +8,9 @@
 #include "modules/scene/camera_3d.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/resource_loader.h"
+#include "modules/scene/viewport.h"
+
+#include <algorithm>
 
 namespace lucent {
 
@@ -36,8 +39,9 @@ Status RenderSession::load(const std::string &p_path) {
 	return Ok();
 }
 
+// Those in the scene's own world.
 static void collect_cameras(scene::Node &p_node, std::vector<scene::Camera3D *> &r_cameras) {
-	if (scene::Camera3D *camera = dynamic_cast<scene::Camera3D *>(&p_node)) {
+	if (scene::Camera3D *camera = dynamic_cast<scene::Camera3D *>(&p_node); camera != nullptr && scene::is_in_tree_world(*camera)) {
 		r_cameras.push_back(camera);
 	}
 	for (const std::unique_ptr<scene::Node> &child : p_node.get_children()) {
@@ -54,6 +58,9 @@ static Result<scene::Camera3D *> named_camera(scene::Node &p_root, const std::st
 		}
 	}
 	if (scene::Camera3D *camera = dynamic_cast<scene::Camera3D *>(p_root.get_node_or_null(NodePath(p_name)))) {
+		if (!scene::is_in_tree_world(*camera)) {
+			return make_error("--camera '{}': the camera is in a SubViewport's own world, which is not drawn", p_name);
+		}
 		return camera;
 	}
 	std::string list;
@@ -74,8 +81,9 @@ Result<CameraRid> RenderSession::choose_camera(const RenderOptions &p_options) {
 		}
 		camera = named.value();
 	}
-	if (camera == nullptr && !cameras.empty()) {
-		camera = cameras.front();
+	if (camera == nullptr) {
+		const auto first = std::find_if(cameras.begin(), cameras.end(), [](const scene::Camera3D *p_camera) { return scene::find_viewport(*p_camera) == nullptr; });
+		camera = first == cameras.end() ? nullptr : *first;
 	}
 	const AABB bounds = visible_bounds(server.scenario_snapshot());
 	if (bounds.is_empty()) {

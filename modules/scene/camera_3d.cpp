@@ -2,6 +2,7 @@
 #include "modules/scene/camera_3d.h"
 
 #include "modules/scene/scene_tree.h"
+#include "modules/scene/viewport.h"
 #include "servers/core/class_builder.h"
 
 namespace lucent::scene {
@@ -10,11 +11,13 @@ void Camera3D::_notification(int p_what) {
 	Node3D::_notification(p_what);
 	switch (p_what) {
 		case NOTIFICATION_ENTER_WORLD:
-			if (get_tree()->get_context()) {
+			if (get_tree()->get_context() && is_in_tree_world(*this)) {
 				rid = get_tree()->get_context()->server().camera_create();
 				state_changed();
 			}
-			get_tree()->camera_entered(this);
+			if (!find_viewport(*this)) {
+				get_tree()->camera_entered(this);
+			}
 			break;
 		case NOTIFICATION_EXIT_WORLD:
 			current = is_current();
@@ -50,7 +53,7 @@ Transform3D Camera3D::get_camera_transform() const {
 
 void Camera3D::set_current(bool p_current) {
 	current = p_current;
-	if (!is_inside_tree()) {
+	if (!is_inside_tree() || find_viewport(*this)) {
 		return;
 	}
 	if (p_current) {
@@ -61,7 +64,7 @@ void Camera3D::set_current(bool p_current) {
 }
 
 bool Camera3D::is_current() const {
-	return is_inside_tree() ? get_tree()->get_camera_3d() == this : current;
+	return is_inside_tree() && !find_viewport(*this) ? get_tree()->get_camera_3d() == this : current;
 }
 
 void Camera3D::set_environment(const Ref<Environment> &p_environment) {

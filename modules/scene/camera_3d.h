@@ -17,7 +17,7 @@ public:
 
 	Camera3D() { set_notify_transform(true); }
 
-	// In a tree: this is the camera that shows. Outside: it will be, when it enters.
+	// In a tree: this is the camera that shows; below a Viewport it never is, for that has its own. Outside: it will be, when it enters.
 	void set_current(bool p_current);
 	bool is_current() const;
 	void make_current() { set_current(true); }

@@ -2,6 +2,7 @@
 #include "modules/scene/scene_tree.h"
 
 #include "modules/scene/camera_3d.h"
+#include "modules/scene/viewport.h"
 #include "modules/scene/world_environment.h"
 #include "servers/core/class_builder.h"
 
@@ -154,7 +155,7 @@ void SceneTree::camera_left(Camera3D *p_camera) {
 }
 
 WorldEnvironment *SceneTree::get_world_environment() const {
-	const auto found = std::find_if(world_environments.begin(), world_environments.end(), [](const WorldEnvironment *p_node) { return p_node->get_environment() != nullptr; });
+	const auto found = std::find_if(world_environments.begin(), world_environments.end(), [](const WorldEnvironment *p_node) { return p_node->get_environment() != nullptr && is_in_tree_world(*p_node); });
 	return found == world_environments.end() ? nullptr : *found;
 }
 

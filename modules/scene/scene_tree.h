@@ -42,6 +42,8 @@ public:
 
 	// The camera that a viewport should show; null: there is none.
 	Camera3D *get_camera_3d() const;
+	// After nodes came into the scenario or left it by another way than entering and leaving the tree.
+	void world_changed() { update_environment(); }
 	// The first that entered and has an environment acts, as in Godot.
 	WorldEnvironment *get_world_environment() const;
 

@@ -2,6 +2,7 @@
 #include "modules/scene/visual_instance_3d.h"
 
 #include "modules/scene/scene_tree.h"
+#include "modules/scene/viewport.h"
 #include "servers/core/class_builder.h"
 
 namespace lucent::scene {
@@ -10,7 +11,7 @@ void VisualInstance3D::_notification(int p_what) {
 	Node3D::_notification(p_what);
 	switch (p_what) {
 		case NOTIFICATION_ENTER_WORLD:
-			context = get_tree()->get_context();
+			context = is_in_tree_world(*this) ? get_tree()->get_context() : nullptr;
 			if (context) {
 				RenderingServer &server = context->server();
 				instance = server.instance_create();
