@@ -2,15 +2,15 @@
 #include "modules/image/image_io.h"
 
 #include "modules/image/hdr_io.h"
-#include "modules/image/jpeg_check.h"
+#include "modules/image/packed_images.h"
 #include "servers/core/file_io.h"
 
 #include <climits>
 #include <cstring>
 
 #define STBI_MAX_DIMENSIONS 32768
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_BMP
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
@@ -44,8 +44,8 @@ Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::strin
 	if (!stbi_info_from_memory(bytes, size, &width, &height, &channels) || width <= 0 || height <= 0) {
 		return make_error("{}: broken {} header ({})", p_name, p_kind, stbi_failure_reason());
 	}
-	if (uint32_t(width) > MAX_IMAGE_SIDE_TEXELS || uint32_t(height) > MAX_IMAGE_SIDE_TEXELS || uint64_t(width) * uint64_t(height) > MAX_IMAGE_TEXELS) {
-		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, width, height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	if (const Status status = check_image_size(uint64_t(width), uint64_t(height), p_name); !status) {
+		return status.error();
 	}
 	Image image;
 	stbi_uc *texels = stbi_load_from_memory(bytes, size, &width, &height, &channels, 4);
@@ -117,16 +117,28 @@ Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_
 
 } // namespace
 
+Status check_image_size(uint64_t p_width, uint64_t p_height, const std::string &p_name) {
+	if (p_width == 0 || p_height == 0) {
+		return make_error("{}: the image is empty: {} x {} texels", p_name, p_width, p_height);
+	}
+	if (p_width > MAX_IMAGE_SIDE_TEXELS || p_height > MAX_IMAGE_SIDE_TEXELS || p_width * p_height > MAX_IMAGE_TEXELS) {
+		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, p_width, p_height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	}
+	return Ok();
+}
+
 Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const std::string &p_name) {
 	if (p_bytes.empty()) {
-		return make_error("{}: the file is empty, expected a PNG, JPEG, HDR or EXR image", p_name);
+		return make_error("{}: the file is empty, expected a PNG, JPEG, WebP, TGA, BMP, HDR or EXR image", p_name);
 	}
 	if (begins_with(p_bytes, "\x89PNG")) {
-		return load_with_stb(p_bytes, p_name, "PNG");
+		return load_png(p_bytes, p_name);
 	}
 	if (begins_with(p_bytes, "\xff\xd8\xff")) {
-		const char *fault = find_jpeg_fault(p_bytes);
-		return fault == nullptr ? load_with_stb(p_bytes, p_name, "JPEG") : make_error("{}: broken or truncated JPEG data ({})", p_name, fault);
+		return load_jpeg(p_bytes, p_name);
+	}
+	if (begins_with(p_bytes, "RIFF") && p_bytes.size() >= 12 && begins_with(p_bytes.subspan(8), "WEBP")) {
+		return load_webp(p_bytes, p_name);
 	}
 	if (begins_with(p_bytes, "#?RADIANCE") || begins_with(p_bytes, "#?RGBE")) {
 		return load_hdr(p_bytes, p_name);
@@ -134,7 +146,13 @@ Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const s
 	if (begins_with(p_bytes, "\x76\x2f\x31\x01")) {
 		return load_exr(p_bytes, p_name);
 	}
-	return make_error("{}: expected a PNG, JPEG, HDR or EXR image, found another kind of file", p_name);
+	if (begins_with(p_bytes, "BM")) {
+		return load_with_stb(p_bytes, p_name, "BMP");
+	}
+	if (path_extension(p_name) == "tga") { // the one kind without a mark of its own
+		return load_with_stb(p_bytes, p_name, "TGA");
+	}
+	return make_error("{}: expected a PNG, JPEG, WebP, TGA, BMP, HDR or EXR image, found another kind of file", p_name);
 }
 
 Result<Image> load_image(const std::string &p_path) {
