@@ -6,6 +6,7 @@
 #include "modules/app/property_setting.h"
 #include "modules/app/suggestion.h"
 #include "modules/scene/camera_3d.h"
+#include "modules/scene/load_report.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/resource_loader.h"
 #include "modules/scene/viewport.h"
@@ -20,8 +21,10 @@ RenderSession::~RenderSession() {
 	}
 }
 
-Status RenderSession::load(const std::string &p_path) {
+Status RenderSession::load(const std::string &p_path, bool p_strict) {
 	path = p_path;
+	const scene::LoadReport::Scope report;
+	const int errors_before = scene::LoadReport::error_count();
 	Result<Ref<Resource>> resource = scene::ResourceLoader::load(p_path);
 	if (!resource) {
 		return resource.error();
@@ -33,6 +36,9 @@ Status RenderSession::load(const std::string &p_path) {
 	Result<std::unique_ptr<scene::Node>> scene = packed->instantiate();
 	if (!scene) {
 		return scene.error();
+	}
+	if (const int errors = scene::LoadReport::error_count() - errors_before; p_strict && errors > 0) {
+		return make_error("{}: {} {} of the scene can't be read (--strict)", p_path, errors, errors == 1 ? "part" : "parts");
 	}
 	add_preview_environment(*scene.value());
 	tree.set_current_scene(scene.take());

@@ -56,9 +56,9 @@ static TransparencyMode resolve_transparency(MaterialTransparency p_mode) {
 lucent::Material BaseMaterial3D::resolve(SceneContext &p_context) const {
 	lucent::Material material;
 	material.albedo = Vector4(srgb_to_linear(state.albedo_color), state.albedo_color.a);
-	material.metallic = state.metallic;
-	material.roughness = state.roughness;
-	material.specular = state.specular_mode == SpecularMode::DISABLED ? 0.0f : state.metallic_specular;
+	material.metallic = glm::clamp(state.metallic, 0.0f, 1.0f); // files may have any
+	material.roughness = glm::clamp(state.roughness, 0.0f, 1.0f);
+	material.specular = state.specular_mode == SpecularMode::DISABLED ? 0.0f : glm::clamp(state.metallic_specular, 0.0f, 1.0f);
 	material.specular_tint = state.specular_tint;
 	if (state.emission_enabled) {
 		material.emission = srgb_to_linear(state.emission) * state.emission_energy_multiplier;
@@ -101,7 +101,7 @@ void BaseMaterial3D::free_server_objects(RenderingServer &p_server) {
 
 void Material::bind(ClassBuilder<Material> &r_class) {
 	r_class.doc("How something is coloured.");
-	r_class.property("render_priority", &Material::set_render_priority, &Material::get_render_priority).range(-128, 127, 1).doc("Blended surfaces of higher priority are drawn later.");
+	r_class.property("render_priority", &Material::set_render_priority, &Material::get_render_priority).range(-128, 127, 1).enforced().doc("Blended surfaces of higher priority are drawn later.");
 }
 
 void StandardMaterial3D::bind(ClassBuilder<StandardMaterial3D> &r_class) {

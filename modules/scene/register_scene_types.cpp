@@ -6,6 +6,7 @@
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/primitive_meshes.h"
 #include "modules/scene/scene_tree.h"
+#include "modules/scene/skeleton_3d.h"
 #include "modules/scene/viewport.h"
 #include "modules/scene/world_environment.h"
 #include "servers/core/class_builder.h"
@@ -43,6 +44,8 @@ static void register_nodes() {
 	ClassDB::register_abstract_class<Viewport>();
 	ClassDB::register_class<SubViewport>();
 	ClassDB::register_class<Window>();
+	ClassDB::register_class<Skeleton3D>();
+	ClassDB::register_class<BoneAttachment3D>();
 	ClassDB::register_abstract_class<VisualInstance3D>();
 	ClassDB::register_abstract_class<GeometryInstance3D>();
 	ClassDB::register_class<MeshInstance3D>();
