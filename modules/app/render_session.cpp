@@ -40,8 +40,10 @@ Status RenderSession::load(const std::string &p_path, bool p_strict) {
 	if (const int errors = scene::LoadReport::error_count() - errors_before; p_strict && errors > 0) {
 		return make_error("{}: {} {} of the scene can't be read (--strict)", p_path, errors, errors == 1 ? "part" : "parts");
 	}
-	add_preview_environment(*scene.value());
+	const PreviewNodes preview = add_preview_environment(*scene.value());
 	tree.set_current_scene(scene.take());
+	tree.flush();
+	fit_preview(preview, visible_bounds(server.scenario_snapshot()));
 	return Ok();
 }
 
@@ -99,6 +101,10 @@ Result<CameraRid> RenderSession::choose_camera(const RenderOptions &p_options) {
 		camera = add_framing_camera(root(), bounds, float(p_options.width) / float(p_options.height));
 		tree.flush();
 	}
+	if (scene::find_viewport(*camera) == nullptr) { // what depends on the viewer's place looks from here
+		camera->make_current();
+	}
+	tree.flush();
 	return camera->get_camera_rid();
 }
 

@@ -32,6 +32,7 @@ static void register_resources() {
 	ClassDB::register_class<TorusMesh>();
 	ClassDB::register_class<ProceduralSkyMaterial>();
 	ClassDB::register_class<PanoramaSkyMaterial>();
+	ClassDB::register_class<PhysicalSkyMaterial>();
 	ClassDB::register_class<Sky>();
 	ClassDB::register_class<Environment>();
 	ClassDB::register_class<PackedScene>();

@@ -20,6 +20,11 @@ void SceneContext::flush() {
 			resource->send(*this);
 		}
 	}
+	for (size_t i = 0; i < attached.size(); i++) { // sending one can attach others
+		if (attached[i]->is_stale(*this)) {
+			attached[i]->send(*this);
+		}
+	}
 }
 
 ServerResource::~ServerResource() {
