@@ -2,7 +2,9 @@
 #include "modules/scene/register_scene_types.h"
 
 #include "modules/scene/camera_3d.h"
+#include "modules/scene/grid_map.h"
 #include "modules/scene/light_3d.h"
+#include "modules/scene/multi_mesh.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/primitive_meshes.h"
 #include "modules/scene/scene_tree.h"
@@ -35,6 +37,8 @@ static void register_resources() {
 	ClassDB::register_class<PhysicalSkyMaterial>();
 	ClassDB::register_class<Sky>();
 	ClassDB::register_class<Environment>();
+	ClassDB::register_class<MultiMesh>();
+	ClassDB::register_class<MeshLibrary>();
 	ClassDB::register_class<PackedScene>();
 	ClassDB::register_class<World3D>();
 }
@@ -50,6 +54,8 @@ static void register_nodes() {
 	ClassDB::register_abstract_class<VisualInstance3D>();
 	ClassDB::register_abstract_class<GeometryInstance3D>();
 	ClassDB::register_class<MeshInstance3D>();
+	ClassDB::register_class<MultiMeshInstance3D>();
+	ClassDB::register_class<GridMap>();
 	ClassDB::register_class<Camera3D>();
 	ClassDB::register_abstract_class<Light3D>();
 	ClassDB::register_class<DirectionalLight3D>();
