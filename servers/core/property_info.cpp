@@ -68,11 +68,11 @@ static bool is_finite(const Variant &p_value) {
 
 // Bounds and values pass through float: 0.01f must not fall below 0.01.
 static bool is_below(const PropertyRange &p_range, double p_number) {
-	return !p_range.or_less && p_number < p_range.min - 1e-6 * std::max(std::abs(p_range.min), std::abs(p_range.max));
+	return !p_range.or_less && p_number < p_range.min - 1e-6 * std::abs(p_range.min);
 }
 
 static bool is_above(const PropertyRange &p_range, double p_number) {
-	return !p_range.or_greater && p_number > p_range.max + 1e-6 * std::max(std::abs(p_range.min), std::abs(p_range.max));
+	return !p_range.or_greater && p_number > p_range.max + 1e-6 * std::abs(p_range.max);
 }
 
 Status PropertyInfo::checked_set(Object &r_object, const Variant &p_value) const {
