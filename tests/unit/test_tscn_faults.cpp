@@ -80,7 +80,7 @@ mesh = SubResource("mesh")
 	CHECK(log.count("values.tscn:9: SphereMesh.radial_segments can't be 1; it becomes 4") == 1);
 	CHECK(log.errors == 0);
 	CHECK(log.messages.size() - size_t(log.infos) == 2);
-	const Variant mesh = property(*root, ".", "mesh");
+	const Variant mesh = root->get("mesh");
 	REQUIRE(mesh.get_object() != nullptr);
 	CHECK(mesh.get_object()->get("radial_segments") == Variant(int64_t(4)));
 	const Variant material = mesh.get_object()->get("material");
