@@ -23,10 +23,10 @@ RULES = [
     ("device", DEVICE + "/", ["core", "driver interface"]),
     ("settings", r"servers/rendering/(gi/\w+|fog)/\w+_settings\.h$", ["core"]),
     ("shared shaders", r"servers/rendering/shaders/", ["core", "device", "driver interface"]),
-    ("scene data", r"servers/rendering/render_scene\.(h|cpp)$", ["core", "settings"]),
+    ("scene data", r"servers/rendering/(render_scene|render_origin)\.(h|cpp)$", ["core", "settings"]),
     (
         "device scene",
-        r"servers/rendering/(gpu_\w+|gi_reflectance|render_origin|scene_cull|range_allocator|mesh_attributes|texture_mips)\.(h|cpp)$",
+        r"servers/rendering/(gpu_\w+|brdf_table|gi_reflectance|scene_cull|range_allocator|mesh_attributes|texture_mips)\.(h|cpp)$",
         ["core", "device", "driver interface", "settings", "shared shaders", "scene data"],
     ),
     ("passes", r"servers/rendering/passes/", ["core", "device", "driver interface", "settings", "shared shaders", "scene data", "device scene", "gi shader interface"]),
@@ -39,7 +39,7 @@ RULES = [
     ("frame renderer", r"servers/rendering/", ["core", "device", "driver interface", "settings", "shared shaders", "scene data", "device scene", "passes", "gi shader interface", "gi world", "gi technique", "fog", "server interface"]),
     ("vulkan driver", r"drivers/vulkan/", ["core", "driver interface"]),
     ("null driver", r"drivers/null/", ["core", "driver interface"]),
-    ("app", r"modules/app/", None),
+    ("app", r"modules/(app|python)/", None),
     ("module", r"modules/", ["core", "settings", "shared shaders", "scene data", "server interface"]),
     ("tests", r"tests/", None),
 ]

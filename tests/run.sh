@@ -11,7 +11,7 @@ usage: ./lucent test [--ci] [--device NAME] [--filter TEXT]
   --ci           also: unit tests under the address and undefined-behaviour sanitizers (built by clang), three fuzzers for a minute
                  each, GPU tests on SwiftShader
 
-Steps: checks of the tree, unit tests, GPU tests under validation (those of the command line among them). The last line is `N passed, N failed`.
+Steps: checks of the tree, unit tests, GPU tests under validation (those of the command line among them), the Python module's tests and samples. The last line is `N passed, N failed`.
 TEXT
 }
 
@@ -67,6 +67,33 @@ gpu_suite() {
 	local name=$1 program=$2 device=$3 icd=$4 settings=(LUCENT_VALIDATION=1)
 	[[ -z $icd ]] || settings+=(VK_DRIVER_FILES="$icd" VK_ICD_FILENAMES="$icd")
 	suite "$name" env "${settings[@]}" "$program" --gpu-only --root "$root" ${device:+--device "$device"} "${filter[@]}"
+}
+
+# The Python module: its own tests and the samples of doc/samples/python, then its stubs and types.
+python_suite() {
+	local start=$SECONDS status=0 log=$root/bin/python_tests.log icd=$1 summary ok bad skipped settings=(LUCENT_VALIDATION=1 LUCENT_VALIDATION_ABORT=1 PYTHONPATH="$root/bin/python" PYTHONDONTWRITEBYTECODE=1)
+	[[ -z $icd ]] || settings+=(VK_DRIVER_FILES="$icd" VK_ICD_FILENAMES="$icd")
+	say "== Python"
+	env "${settings[@]}" timeout 600 /usr/bin/python3 -m pytest -q -p no:cacheprovider "$root/tests/python" 2>&1 | tee "$log" >&2 || status=1
+	summary=$(tail -n 1 "$log")
+	ok=$(sed -n 's/.*[^0-9]\?\([0-9]\+\) passed.*/\1/p' <<<" $summary")
+	bad=$(sed -n 's/.*[^0-9]\([0-9]\+\) failed.*/\1/p' <<<" $summary")
+	skipped=$(sed -n 's/.*[^0-9]\([0-9]\+\) skipped.*/\1/p' <<<" $summary")
+	if ((status != 0 && ${bad:-0} == 0)); then # it died
+		bad=1
+	fi
+	((${bad:-0} == 0)) || failures+=("Python")
+	passed=$((passed + ${ok:-0}))
+	failed=$((failed + ${bad:-0}))
+	say "== Python: ${ok:-0} passed, ${bad:-0} failed, ${skipped:-0} skipped, $((SECONDS - start)) s"
+}
+
+check_stubs() {
+	(cd "$root/bin" && MYPYPATH=$root/bin/python PYTHONPATH=$root/bin/python /usr/bin/python3 -m mypy.stubtest lucent --allowlist "$root/tests/python/stubtest_allowlist.txt" --ignore-missing-stub --ignore-unused-allowlist >&2)
+}
+
+check_types() {
+	(cd "$root/bin" && MYPYPATH=$root/bin/python /usr/bin/python3 -m mypy --strict --cache-dir "$root/bin/mypy" "$root"/doc/samples/python/*.py >&2)
 }
 
 # Prints the ICD file of SwiftShader, which Debian has inside of Chromium. Only that one library is used, so nothing is installed.
@@ -172,6 +199,10 @@ run_tests() {
 	suite "unit tests" "$root/bin/lucent_tests" --root "$root" "${filter[@]}"
 	gpu_suite "GPU tests" "$root/bin/lucent_tests" "$device" "$icd"
 	if ((${#filter[@]} == 0)); then
+		ensure_python_built
+		python_suite "$icd"
+		step "stubs of the Python module" check_stubs
+		step "types of the Python samples" check_types
 		((ci == 0)) || run_ci_steps
 	fi
 

@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,14 @@ bool take_options(std::vector<char *> &r_arguments, Selection &r_selection, std:
 
 const Options &options() {
 	return test_options;
+}
+
+std::string program() {
+	std::error_code error;
+	std::string path = std::filesystem::read_symlink("/proc/self/exe", error).string();
+	const size_t at = path.rfind("lucent_tests");
+	REQUIRE(at != std::string::npos);
+	return path.replace(at, std::strlen("lucent_tests"), "lucent");
 }
 
 void note_missing(const std::string &p_reason) {

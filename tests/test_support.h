@@ -12,6 +12,9 @@ struct Options {
 };
 const Options &options();
 
+// The program beside the test program, of the same build.
+std::string program();
+
 // Notes that the running case does nothing for what is missing: "the device lacks timestamps". No other reason for a skip is accepted.
 void note_missing(const std::string &p_reason);
 

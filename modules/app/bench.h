@@ -7,6 +7,7 @@
 namespace lucent {
 
 int bench_quality(const BenchOptions &p_options);
+int bench_furnace(const BenchOptions &p_options);
 int bench_speed(const BenchOptions &p_options);
 int bench_response(const BenchOptions &p_options);
 int bench_truth(const BenchOptions &p_options);

@@ -16,6 +16,8 @@ int bench_command(const std::vector<std::string> &p_args) {
 	switch (options.value().kind) {
 		case BenchKind::QUALITY:
 			return bench_quality(options.value());
+		case BenchKind::FURNACE:
+			return bench_furnace(options.value());
 		case BenchKind::SPEED:
 			return bench_speed(options.value());
 		case BenchKind::RESPONSE:

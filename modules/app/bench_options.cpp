@@ -22,6 +22,7 @@ struct Kind {
 };
 constexpr Kind KINDS[] = {
 	{ "quality", BenchKind::QUALITY, "Renders the scenes with a path-traced truth and says how far SDFGI is from it: a table, quality.json, pictures, report.html." },
+	{ "furnace", BenchKind::FURNACE, "Draws scenes in which every pixel must be 1: each material reflects RHO and emits 1 - RHO under a sky of 1. Says how far they are from it: a table, furnace.json, maps, furnace.html. Textures go, so alpha-masked surfaces are whole." },
 	{ "speed", BenchKind::SPEED, "Measures GPU milliseconds of each pass, memory and counts, at rest, moving and changing, and how they scale: a table, speed.json, speed.html." },
 	{ "response", BenchKind::RESPONSE, "Measures how fast light follows a change, and what moves at rest: a table, response.json, response.html." },
 	{ "truth", BenchKind::TRUTH, "Path-traces the truth of the quality scenes anew (minutes each)." },
@@ -35,10 +36,13 @@ std::string footer() {
 
 void declare_options(CLI::App &r_app, BenchOptions &r_options, std::string &r_size) {
 	const auto last = CLI::MultiOptionPolicy::TakeLast;
+	const bool furnace = r_options.kind == BenchKind::FURNACE;
 	const bool quality = r_options.kind == BenchKind::QUALITY;
-	if (quality || r_options.kind == BenchKind::TRUTH) {
-		r_app.add_option("SCENE", r_options.names, "names of scenes [all]");
+	if (furnace || quality || r_options.kind == BenchKind::TRUTH) {
+		r_app.add_option("SCENE", r_options.names, furnace ? "names of scenes, or .tscn, .gltf and .glb files [all of the folder]" : "names of scenes [all]");
 		r_app.add_option("--scenes", r_options.scenes, "folder of the scenes [tests/data/scenes]")->type_name("DIR")->multi_option_policy(last);
+	}
+	if (quality || r_options.kind == BenchKind::TRUTH) {
 		r_app.add_option("--truth", r_options.truth, "folder of the truth [tests/data/truth]")->type_name("DIR")->multi_option_policy(last);
 	}
 	r_app.add_flag("--quiet", r_options.quiet, "print errors, warnings and the table only");
@@ -49,15 +53,19 @@ void declare_options(CLI::App &r_app, BenchOptions &r_options, std::string &r_si
 	r_app.add_option("-o,--output", r_options.output, "folder for the results [bench]")->type_name("DIR")->multi_option_policy(last);
 	r_app.add_option("--json", r_options.json, "write the figures here, and no other file")->type_name("FILE.json")->multi_option_policy(last);
 	r_app.add_option("--device", r_options.device, "index (as in lucent info) or part of the name of the Vulkan device")->type_name("DEVICE")->multi_option_policy(last);
-	r_app.add_option("--frames", r_options.frames, quality ? "frames to draw at most; fewer where the light has settled before [76 on a CPU device, else 512]" : "frames in each state [few on a CPU device, else 240]")
+	r_app.add_option("--frames", r_options.frames, quality || furnace ? "frames to draw at most; fewer where the light has settled before [76 on a CPU device, else 512]" : "frames in each state [few on a CPU device, else 240]")
 			->check(CLI::Range(1u, 1000000u))
 			->type_name("N")
 			->multi_option_policy(last);
-	r_app.add_option("--grid", r_options.grid, "cells an axis of each cascade [64 on a CPU device, else 128]")->check(CLI::IsMember({ 64u, 128u, 256u }))->type_name("N")->multi_option_policy(last);
+	r_app.add_option("--grid", r_options.grid, furnace ? "cells an axis of each cascade [the scene's]" : "cells an axis of each cascade [64 on a CPU device, else 128]")->check(CLI::IsMember({ 64u, 128u, 256u }))->type_name("N")->multi_option_policy(last);
 	if (quality) {
 		r_app.add_option("--size", r_size, "picture size: that of the truth or half of it [256x144]")->type_name("WxH")->multi_option_policy(last);
 	}
-	if (r_options.kind != BenchKind::QUALITY) {
+	if (furnace) {
+		r_app.add_option("--size", r_size, "picture size [256x144]")->type_name("WxH")->multi_option_policy(last);
+		r_app.add_option("--albedo", r_options.albedos, "share of the light that surfaces reflect, any number of times [0.5 and 0.9]")->check(CLI::Range(0.0f, 0.99f))->type_name("RHO")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+	}
+	if (!quality && !furnace) {
 		r_app.add_option("--preset", r_options.preset, "cpu (small, counts first) or gpu (everything) [by the device]")->check(CLI::IsMember({ "cpu", "gpu" }))->type_name("NAME")->multi_option_policy(last);
 	}
 	r_app.add_option("--set", r_options.settings, "change a property of every scene before drawing, any number of times; the value is written as in a .tscn")
@@ -68,7 +76,7 @@ void declare_options(CLI::App &r_app, BenchOptions &r_options, std::string &r_si
 }
 
 void print_help() {
-	std::fputs("usage: lucent bench quality|speed|response|truth [OPTIONS]\n\n", stdout);
+	std::fputs("usage: lucent bench quality|furnace|speed|response|truth [OPTIONS]\n\n", stdout);
 	for (const Kind &kind : KINDS) {
 		std::printf("  %-9s %s\n", kind.name, kind.description);
 	}
@@ -83,7 +91,7 @@ Result<const Kind *> find_kind(const std::string &p_name) {
 		}
 		names.push_back(kind.name);
 	}
-	return make_error("there is no bench '{}'{}; there are quality, speed, response and truth", p_name, suggestion(p_name, names));
+	return make_error("there is no bench '{}'{}; there are quality, furnace, speed, response and truth", p_name, suggestion(p_name, names));
 }
 
 void fill_defaults(BenchOptions &r_options) {
@@ -91,6 +99,9 @@ void fill_defaults(BenchOptions &r_options) {
 	fill(r_options.scenes, source_root() + "tests/data/scenes");
 	fill(r_options.truth, source_root() + "tests/data/truth");
 	fill(r_options.output, "bench");
+	if (r_options.albedos.empty()) {
+		r_options.albedos = { 0.5f, 0.9f };
+	}
 	for (std::string *folder : { &r_options.scenes, &r_options.truth, &r_options.output }) {
 		if (!folder->ends_with('/')) {
 			*folder += '/';
@@ -110,7 +121,7 @@ Result<BenchOptions> parse_bench_options(const std::vector<std::string> &p_args)
 	BenchOptions options;
 	if (p_args.empty() || p_args[0] == "--help" || p_args[0] == "-h") {
 		if (p_args.empty()) {
-			return make_error("expected quality, speed, response or truth ('lucent bench --help' explains)");
+			return make_error("expected quality, furnace, speed, response or truth ('lucent bench --help' explains)");
 		}
 		print_help();
 		options.exit = true;

@@ -8,6 +8,7 @@ namespace lucent {
 
 enum class BenchKind {
 	QUALITY,
+	FURNACE,
 	SPEED,
 	RESPONSE,
 	TRUTH
@@ -15,7 +16,7 @@ enum class BenchKind {
 
 struct BenchOptions {
 	BenchKind kind = BenchKind::QUALITY;
-	std::vector<std::string> names; // of scenes, without .tscn; empty: all
+	std::vector<std::string> names; // of scenes, without .tscn (furnace: files too); empty: all
 	std::string scenes; // folder
 	std::string truth; // folder
 	std::string output; // folder
@@ -23,6 +24,7 @@ struct BenchOptions {
 	std::string device;
 	std::string preset; // cpu or gpu; empty: by the device
 	std::vector<std::string> settings; // --set
+	std::vector<float> albedos; // of furnaces
 	uint32_t width = 256;
 	uint32_t height = 144;
 	uint32_t frames = 0; // 0: by the device
@@ -33,7 +35,7 @@ struct BenchOptions {
 	bool exit = false; // --help was printed
 };
 
-// p_args: the first is quality, speed, response or truth.
+// p_args: the first is quality, furnace, speed, response or truth.
 Result<BenchOptions> parse_bench_options(const std::vector<std::string> &p_args);
 
 // The folder that holds bin/: where tests/ and doc/ are found. Ends in '/'.

@@ -82,7 +82,7 @@ Result<QualityRow> measure_scene(RenderingDevice &r_device, const BenchOptions &
 			return make_error("{}: {}", p_name, error.error().message);
 		}
 		row.error = error.value();
-		row.curve.emplace_back(row.frames, row.error.sealed ? row.error.leak.max : row.error.nrmse);
+		row.curve.emplace_back(row.frames, row.error.sealed ? row.error.leak.max : row.error.blocks.nrmse);
 	}
 	row.gi_ms = percentile(frame_ms, 0.5);
 	row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -92,7 +92,7 @@ Result<QualityRow> measure_scene(RenderingDevice &r_device, const BenchOptions &
 // Worst first; sealed scenes by whether they leak.
 void sort_rows(std::vector<QualityRow> &r_rows) {
 	const auto badness = [](const QualityRow &p_row) {
-		return !p_row.error.sealed ? p_row.error.nrmse : (p_row.error.leak.max > 0.0 ? std::numeric_limits<double>::infinity() : -1.0);
+		return !p_row.error.sealed ? p_row.error.blocks.nrmse : (p_row.error.leak.max > 0.0 ? std::numeric_limits<double>::infinity() : -1.0);
 	};
 	std::stable_sort(r_rows.begin(), r_rows.end(), [&](const QualityRow &p_a, const QualityRow &p_b) { return badness(p_a) > badness(p_b); });
 }

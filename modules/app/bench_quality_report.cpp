@@ -46,15 +46,18 @@ std::string leak_text(double p_leak) {
 
 ReportTable quality_table(const std::vector<QualityRow> &p_rows, const Json &p_godot) {
 	ReportTable table;
-	table.columns = { "scene", "nrmse", "Godot's", "its best", "flat", "noise", "energy", "Godot's", "of its best", "relmse", "logcorr", "frames", "GI ms" };
+	table.columns = { "scene", "nrmse", "noise", "Godot's", "its best", "flat", "pixels", "noise", "mottle", "noise", "energy", "Godot's", "of its best", "relmse", "logcorr", "frames", "GI ms" };
 	for (const QualityRow &row : p_rows) {
 		const LightError &error = row.error;
 		const std::string frames = std::to_string(row.frames) + (row.settled ? "" : "+");
 		if (error.sealed) {
-			table.rows.push_back({ row.name + " (leak max)", leak_text(error.leak.max), godot_cell(p_godot, row.name, "default", "leak_max"), godot_cell(p_godot, row.name, "best", "leak_max"), NONE, NONE, NONE, NONE, NONE, NONE, NONE, frames, number(row.gi_ms, 2) });
+			table.rows.push_back({ row.name + " (leak max)", leak_text(error.leak.max), NONE, godot_cell(p_godot, row.name, "default", "leak_max"), godot_cell(p_godot, row.name, "best", "leak_max"), NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, frames, number(row.gi_ms, 2) });
 			continue;
 		}
-		table.rows.push_back({ row.name, with_interval(error.nrmse, error.nrmse_interval), godot_cell(p_godot, row.name, "default", "nrmse"), godot_cell(p_godot, row.name, "best", "nrmse"), number(error.flat, 3), number(error.noise, 3),
+		const MottleError &mottle = error.mottle;
+		const bool mottle_known = mottle.windows > 0;
+		table.rows.push_back({ row.name, with_interval(error.blocks.nrmse, error.blocks.interval), number(error.blocks.noise, 3), godot_cell(p_godot, row.name, "default", "nrmse"), godot_cell(p_godot, row.name, "best", "nrmse"), number(error.flat, 3),
+				with_interval(error.pixels.nrmse, error.pixels.interval), number(error.pixels.noise, 3), mottle_known ? with_interval(mottle.mottle, mottle.interval) : NONE, mottle_known ? number(mottle.noise, 3) : NONE,
 				with_interval(error.energy, error.energy_interval), godot_cell(p_godot, row.name, "default", "energy"), godot_cell(p_godot, row.name, "best", "energy"), number(error.relmse, 3), number(error.log_correlation, 3), frames, number(row.gi_ms, 2) });
 	}
 	return table;
@@ -62,11 +65,13 @@ ReportTable quality_table(const std::vector<QualityRow> &p_rows, const Json &p_g
 
 Json row_json(const QualityRow &p_row, const Json &p_godot) {
 	const LightError &error = p_row.error;
-	Json json = { { "scene", p_row.name }, { "frames", p_row.frames }, { "settled", p_row.settled }, { "sealed", error.sealed }, { "blocks", error.blocks }, { "mean", error.mean }, { "truth_mean", error.truth_mean } };
+	Json json = { { "scene", p_row.name }, { "frames", p_row.frames }, { "settled", p_row.settled }, { "sealed", error.sealed }, { "blocks", error.block_count }, { "mean", error.mean }, { "truth_mean", error.truth_mean } };
 	if (error.sealed) {
 		json["leak"] = { { "pixels", error.leak.pixels }, { "mean", error.leak.mean }, { "p999", error.leak.p999 }, { "max", error.leak.max } };
 	} else {
-		json.update({ { "nrmse", error.nrmse }, { "nrmse_interval", error.nrmse_interval }, { "noise", error.noise }, { "flat", error.flat }, { "energy", error.energy }, { "energy_interval", error.energy_interval }, { "relmse", error.relmse }, { "log_correlation", error.log_correlation } });
+		json.update({ { "nrmse", error.blocks.nrmse }, { "nrmse_interval", error.blocks.interval }, { "noise", error.blocks.noise }, { "flat", error.flat }, { "energy", error.energy }, { "energy_interval", error.energy_interval }, { "relmse", error.relmse }, { "log_correlation", error.log_correlation } });
+		json["pixels"] = { { "nrmse", error.pixels.nrmse }, { "nrmse_interval", error.pixels.interval }, { "noise", error.pixels.noise } };
+		json["mottle"] = { { "windows", error.mottle.windows }, { "mottle", error.mottle.mottle }, { "mottle_interval", error.mottle.interval }, { "noise", error.mottle.noise }, { "worst", error.mottle.worst } };
 	}
 	for (const auto &[frame, value] : p_row.curve) {
 		json["curve"].push_back({ frame, value });
@@ -126,7 +131,7 @@ ReportChart curve_chart(const std::vector<QualityRow> &p_rows, size_t p_first, s
 }
 
 std::string caption(const QualityRow &p_row) {
-	const std::string figures = p_row.error.sealed ? "largest leak " + leak_text(p_row.error.leak.max) : fmt::format("nrmse {:.3f}, energy {:.3f}", p_row.error.nrmse, p_row.error.energy);
+	const std::string figures = p_row.error.sealed ? "largest leak " + leak_text(p_row.error.leak.max) : fmt::format("nrmse {:.3f}, of pixels {:.3f}, mottle {:.3f}, energy {:.3f}", p_row.error.blocks.nrmse, p_row.error.pixels.nrmse, p_row.error.mottle.mottle, p_row.error.energy);
 	return p_row.name + ": ours, truth, difference (red: ours is brighter, blue: darker). Indirect light alone. " + figures;
 }
 
@@ -137,8 +142,9 @@ Status write_quality(const BenchOptions &p_options, const std::vector<QualityRow
 	const ReportTable table = quality_table(p_rows, godot);
 	Json json = { { "bench", "quality" }, { "conditions", p_conditions }, { "godot_conditions", godot.is_object() ? godot.value("conditions", "") : "" }, { "scenes", Json::array() } };
 	HtmlReport html("Quality: indirect light against path-traced truth", conditions_line(p_conditions) + fmt::format(", {}x{}, {}³ cells", p_options.width, p_options.height, p_conditions["grid"].get<uint32_t>()));
-	html.paragraph("nrmse: root mean square error over blocks of pixels / mean of the truth; ±: 95 % interval over the truth's noise. noise: what a perfect picture would score; "
-				   "flat: what constant light of the right mean would. energy: mean / mean of the truth. frames+: the light had not settled by then.");
+	html.paragraph("nrmse: root mean square error over blocks of 4 x 4 pixels / mean of the truth; pixels: the same over single pixels; the truth's noise is taken out of both, ±: 95 % interval over it. "
+				   "mottle: standard deviation of log2(ours / truth) over 8 x 8 blocks in which the truth is smooth. noise: what a perfect picture would score if the noise were left in; "
+				   "a bar counts where the noise is below a third of it. flat: what constant light of the right mean would. energy: mean / mean of the truth. frames+: the light had not settled by then.");
 	html.table(table);
 	html.paragraph(json["godot_conditions"].get<std::string>() + ".");
 	html.heading("Convergence");

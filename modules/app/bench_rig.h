@@ -33,6 +33,8 @@ public:
 
 	// Reads the scene, applies --set and --grid, opens the viewport.
 	Status load(const std::string &p_path, const BenchOptions &p_options, uint32_t p_width, uint32_t p_height);
+	RenderingServer &rendering_server() { return server; }
+	ViewportRid viewport() const { return session.viewport(); }
 	scene::Node &root() { return session.root(); }
 	// Of the scene's own nodes; null: it has none.
 	scene::Environment *environment();

@@ -67,7 +67,7 @@ int bench_truth(const BenchOptions &p_options) {
 		if (!self) {
 			return bench_failure(EXIT_BAD_INPUT, self.error());
 		}
-		std::printf("%s: mean %.5g, noise %.4f of it a block, flat %.3f\n", path.c_str(), self.value().truth_mean, self.value().noise, self.value().flat);
+		std::printf("%s: mean %.5g, noise %.4f of it a block and %.4f a pixel, flat %.3f, %u smooth windows\n", path.c_str(), self.value().truth_mean, self.value().blocks.noise, self.value().pixels.noise, self.value().flat, self.value().mottle.windows);
 		std::fflush(stdout);
 	}
 	return EXIT_OK;

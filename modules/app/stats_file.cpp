@@ -67,6 +67,19 @@ static Json times_json(const PassTimes &p_times) {
 	return { { "frames", p_times.frames() }, { "total", total_ms }, { "gi", gi_ms }, { "passes", passes } };
 }
 
+namespace {
+
+Json gather_rays_json(const GiStats &p_gi) {
+	constexpr const char *KINDS[] = { "sky", "record", "neighbour", "nothing", "back", "lost_cell" };
+	Json json = Json::object();
+	for (size_t i = 0; i < p_gi.gather_rays.size(); i++) {
+		json[KINDS[i]] = p_gi.gather_rays[i];
+	}
+	return json;
+}
+
+} // namespace
+
 std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_summary, const RenderingServer &p_server) {
 	const FrameStats frame = p_server.get_frame_stats();
 	const RenderingDevice &device = *p_server.get_rendering_device();
@@ -86,6 +99,10 @@ std::string stats_json(const RenderOptions &p_options, const RenderSummary &p_su
 						{ "rays", frame.gi.rays },
 						{ "surface_cells", frame.gi.surface_cells },
 						{ "surface_records", frame.gi.surface_records },
+						{ "listed_triangles", frame.gi.listed_triangles },
+						{ "gather_rays", gather_rays_json(frame.gi) },
+						{ "startless_pixels", frame.gi.startless_pixels },
+						{ "recordless_pixels", frame.gi.recordless_pixels },
 						{ "probes", frame.gi.probes },
 						{ "bytes", frame.gi.bytes },
 				} },

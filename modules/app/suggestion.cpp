@@ -24,8 +24,8 @@ static size_t edit_distance(const std::string &p_a, const std::string &p_b) {
 	return row.back();
 }
 
-std::string suggestion(const std::string &p_word, const std::vector<std::string> &p_candidates) {
-	size_t best = std::max<size_t>(2, p_word.size() / 3) + 1;
+std::string suggestion(const std::string &p_word, const std::vector<std::string> &p_candidates, size_t p_most) {
+	size_t best = (p_most > 0 ? p_most : std::max<size_t>(2, p_word.size() / 3)) + 1;
 	const std::string *nearest = nullptr;
 	for (const std::string &candidate : p_candidates) {
 		const size_t distance = edit_distance(p_word, candidate);

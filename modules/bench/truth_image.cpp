@@ -68,24 +68,33 @@ Result<std::vector<float>> layer(const std::string &p_path, const ExrImage &p_im
 
 } // namespace
 
+void TruthImage::average_halves() {
+	indirect.resize(halves[0].size());
+	std::transform(halves[0].begin(), halves[0].end(), halves[1].begin(), indirect.begin(), [](float p_a, float p_b) { return 0.5f * (p_a + p_b); });
+}
+
 TruthImage combine_runs(std::span<const PathTracerResult> p_runs) {
 	const PathTracerResult &first = p_runs.front();
 	TruthImage truth = { .width = first.width, .height = first.height };
-	INVARIANT(p_runs.size() >= 2 && truth.width % TRUTH_BLOCK_PIXELS == 0 && truth.height % TRUTH_BLOCK_PIXELS == 0, "{} runs of {} x {} pixels", p_runs.size(), truth.width, truth.height);
+	INVARIANT(p_runs.size() >= 2 && p_runs.size() % 2 == 0 && truth.width % TRUTH_BLOCK_PIXELS == 0 && truth.height % TRUTH_BLOCK_PIXELS == 0, "{} runs of {} x {} pixels", p_runs.size(), truth.width, truth.height);
 	const float weight = 1.0f / float(p_runs.size());
-	truth.indirect.resize(3 * truth.pixel_count());
+	truth.halves[0].resize(3 * truth.pixel_count());
+	truth.halves[1].resize(3 * truth.pixel_count());
 	truth.albedo.resize(3 * truth.pixel_count());
 	truth.variance.resize(3 * truth.pixel_count());
 	truth.mask.assign(truth.pixel_count(), 1);
-	for (const PathTracerResult &run : p_runs) {
-		for (size_t i = 0; i < truth.indirect.size(); i++) {
-			truth.indirect[i] += weight * run.indirect[i];
+	for (size_t r = 0; r < p_runs.size(); r++) {
+		const PathTracerResult &run = p_runs[r];
+		std::vector<float> &half = truth.halves[r < p_runs.size() / 2 ? 0 : 1];
+		for (size_t i = 0; i < half.size(); i++) {
+			half[i] += 2.0f * weight * run.indirect[i];
 			truth.albedo[i] += weight * run.albedo[i];
 		}
 		for (size_t i = 0; i < truth.pixel_count(); i++) {
 			truth.mask[i] &= is_dark(run.emission, i) && is_dark(run.background, i) && run.depth[i] > 0.0f ? 1 : 0;
 		}
 	}
+	truth.average_halves();
 	mask_rim_of_void(truth, first);
 	for (size_t i = 0; i < truth.pixel_count(); i++) {
 		truth.mask[i] &= truth.albedo[3 * i] + truth.albedo[3 * i + 1] + truth.albedo[3 * i + 2] > BLACK_ALBEDO ? 1 : 0;
@@ -104,7 +113,7 @@ Status write_truth(const std::string &p_path, const TruthImage &p_truth) {
 	// Variances are far below a half float's smallest steps: their roots are stored.
 	std::vector<float> deviation(p_truth.variance.size());
 	std::transform(p_truth.variance.begin(), p_truth.variance.end(), deviation.begin(), [](float p_value) { return std::sqrt(p_value); });
-	const std::vector<ExrLayer> layers = { { "indirect", rgb, p_truth.indirect, true }, { "albedo", rgb, p_truth.albedo, true }, { "deviation", rgb, deviation, true }, { "mask", { "Y" }, mask, true } };
+	const std::vector<ExrLayer> layers = { { "indirect", rgb, p_truth.halves[0], true }, { "indirect2", rgb, p_truth.halves[1], true }, { "albedo", rgb, p_truth.albedo, true }, { "deviation", rgb, deviation, true }, { "mask", { "Y" }, mask, true } };
 	return write_exr(p_path, p_truth.width, p_truth.height, layers);
 }
 
@@ -119,15 +128,18 @@ Result<TruthImage> read_truth(const std::string &p_path) {
 	}
 	const std::vector<std::string> rgb = { "R", "G", "B" };
 	Result<std::vector<float>> indirect = layer(p_path, file.value(), "indirect", rgb);
+	Result<std::vector<float>> indirect2 = layer(p_path, file.value(), "indirect2", rgb);
 	Result<std::vector<float>> albedo = layer(p_path, file.value(), "albedo", rgb);
 	Result<std::vector<float>> deviation = layer(p_path, file.value(), "deviation", rgb);
 	const Result<std::vector<float>> mask = layer(p_path, file.value(), "mask", { "Y" });
-	for (const Result<std::vector<float>> *part : std::initializer_list<const Result<std::vector<float>> *>{ &indirect, &albedo, &deviation, &mask }) {
+	for (const Result<std::vector<float>> *part : std::initializer_list<const Result<std::vector<float>> *>{ &indirect, &indirect2, &albedo, &deviation, &mask }) {
 		if (!*part) {
 			return part->error();
 		}
 	}
-	truth.indirect = indirect.take();
+	truth.halves[0] = indirect.take();
+	truth.halves[1] = indirect2.take();
+	truth.average_halves();
 	truth.albedo = albedo.take();
 	truth.variance = deviation.take();
 	for (float &value : truth.variance) {
@@ -150,7 +162,9 @@ TruthImage half_size(const TruthImage &p_truth) {
 		}
 		return result;
 	};
-	half.indirect = shrink(p_truth.indirect);
+	half.halves[0] = shrink(p_truth.halves[0]);
+	half.halves[1] = shrink(p_truth.halves[1]);
+	half.average_halves();
 	half.albedo = shrink(p_truth.albedo);
 	half.variance = shrink(p_truth.variance);
 	half.mask.resize(half.pixel_count());

@@ -10,12 +10,12 @@ constexpr float PI = 3.14159265358979f;
 // A file without a range means an infinite one; beyond this the fall-off by distance has left nothing.
 constexpr float DEFAULT_RANGE_M = 4096.0f;
 
-// Godot's exponent such that both cones dim to one half at the same angle. glTF recommends t^2 with t from 0 at the outer to 1 at the
-// inner cone in cosines; Godot has 1 - x^p with x = (1 - cos) / (1 - cos outer).
+// Godot's spot_angle_attenuation such that both cones dim to one half at the same angle. glTF recommends t^2 with t from 0 at the outer to
+// 1 at the inner cone in cosines; Godot has 1 - x^(1 / attenuation) with x = (1 - cos) / (1 - cos outer).
 float spot_attenuation(float p_inner, float p_outer) {
 	const float inner = (1.0f - std::cos(p_inner)) / std::max(1.0f - std::cos(p_outer), 1e-9f);
 	const float half = 1.0f - std::sqrt(0.5f) * (1.0f - std::clamp(inner, 0.0f, 1.0f));
-	return std::min(std::log(0.5f) / std::log(std::min(half, 0.999f)), 100.0f);
+	return std::max(std::log(std::min(half, 0.999f)) / std::log(0.5f), 0.01f);
 }
 
 GltfLight load_light(const JsonView &p_json) {
@@ -33,6 +33,7 @@ GltfLight load_light(const JsonView &p_json) {
 	}
 	light.range_m = p_json.float_in("range", DEFAULT_RANGE_M, 1e-3f, DEFAULT_RANGE_M);
 	light.attenuation = 2.0f;
+	light.specular = 0.5f; // Godot's default for lamps with a place: a lobe of full strength
 	if (type == "point") {
 		light.type = LightType::OMNI;
 	} else if (type == "spot") {

@@ -2,8 +2,8 @@
 #pragma once
 // Directions for the shared BRDF: cosine-weighted for the diffuse lobe, visible normals for the specular one (Heitz, JCGT 7(4) 2018).
 
-#include "modules/reference/brdf.h"
 #include "modules/reference/random.h"
+#include "servers/rendering/shaders/brdf.h"
 
 #include <algorithm>
 

@@ -2,6 +2,7 @@
 #include "modules/reference/light_sampler.h"
 
 #include "modules/reference/brdf_sampling.h"
+#include "servers/rendering/shaders/light_falloff.h"
 
 #include <algorithm>
 
@@ -41,7 +42,7 @@ void estimate_emission(const TraceScene &p_trace, uint32_t p_surface, uint32_t p
 
 } // namespace
 
-LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace) {
+LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, const RenderOrigin &p_origin, TraceScene &r_trace) {
 	std::vector<double> weights;
 	for (uint32_t i = 0; i < r_trace.surfaces.size(); i++) {
 		if (r_trace.material_of(i).emissive) {
@@ -60,7 +61,7 @@ LightSampler::LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, T
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
 		const Light *light = p_scene.lights.get(p_instance.light);
 		if (light && p_instance.scenario == p_scenario && p_instance.visible) {
-			add_lamp(*light, p_instance.transform);
+			add_lamp(*light, p_origin.render_from_world(p_instance.transform));
 		}
 	});
 }
@@ -142,6 +143,7 @@ void LightSampler::add_lamp(const Light &p_light, const Transform3D &p_transform
 	lamp.spot_cos = std::cos(glm::radians(p_light.spot_angle_degrees));
 	lamp.sun_cos = std::cos(0.5f * glm::radians(p_light.angular_size_degrees));
 	if (lamp.weight > 0.0f) {
+		negative = negative || p_light.negative;
 		lamps.push_back(lamp);
 	}
 }
@@ -174,23 +176,12 @@ EmitterSample LightSampler::sample_emitter(const TraceScene &p_trace, const Vect
 	return sample;
 }
 
-// Godot's: (1 - (d / range)^4)^2 d^-decay, and the spot's rim.
 float LightSampler::attenuation(const Lamp &p_lamp, const Vector3 &p_to_lamp, float p_distance) const {
 	const Light &light = p_lamp.parameters;
-	const float ratio = p_distance / light.range_m;
-	const float window = std::max(1.0f - ratio * ratio * ratio * ratio, 0.0f);
-	if (window == 0.0f) {
-		return 0.0f;
-	}
-	const float near = std::max(p_distance, 1e-4f);
-	float value = window * window * (light.attenuation == 2.0f ? 1.0f / (near * near) : std::pow(near, -light.attenuation));
-	if (light.type == LightType::SPOT) {
-		const float cosine = -glm::dot(p_to_lamp, p_lamp.direction) / near;
-		if (cosine <= p_lamp.spot_cos) {
-			return 0.0f;
-		}
-		const float rim = std::max(1e-3f, (1.0f - cosine) / (1.0f - p_lamp.spot_cos));
-		value *= 1.0f - std::pow(rim, light.spot_attenuation);
+	float value = light_falloff::light_distance_falloff(p_distance, std::max(light.range_m, 1e-3f), light.attenuation);
+	if (light.type == LightType::SPOT && value > 0.0f) {
+		const float cosine = -glm::dot(p_to_lamp, p_lamp.direction) / std::max(p_distance, LIGHT_MIN_DISTANCE_M);
+		value *= light_falloff::light_cone_falloff(cosine, p_lamp.spot_cos, light.spot_exponent());
 	}
 	return value;
 }
@@ -242,8 +233,10 @@ LampSample LightSampler::sample_lamp(uint32_t p_lamp, const Vector3 &p_position,
 	const Lamp &lamp = lamps[p_lamp];
 	const Light &light = lamp.parameters;
 	LampSample sample;
-	sample.specular = light.specular;
-	sample.shadow_opacity = light.shadow_enabled ? light.shadow_opacity : 0.0f;
+	sample.specular = light.specular_scale();
+	// shadow_enabled and shadow_opacity are about shadow maps; light that bounces is stopped by whatever is in its way, as in GI.
+	const float opacity = light.shadow_enabled ? light.shadow_opacity : 0.0f;
+	sample.shadow_opacity = p_indirect ? 1.0f : opacity;
 	float strength = 1.0f;
 	if (p_indirect) {
 		strength = light.bake_mode == LightBakeMode::DISABLED ? 0.0f : light.indirect_energy;

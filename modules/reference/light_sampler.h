@@ -29,9 +29,10 @@ class LightSampler {
 public:
 	LightSampler() = default;
 	// Sets first_emitter of r_trace's surfaces.
-	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, TraceScene &r_trace);
+	LightSampler(const RenderScene &p_scene, ScenarioRid p_scenario, const RenderOrigin &p_origin, TraceScene &r_trace);
 
 	bool has_emitters() const { return !emitters.empty(); }
+	bool has_negative_lamps() const { return negative; }
 	// pdf 0 where the point is below p_horizon, the surface's geometric normal.
 	EmitterSample sample_emitter(const TraceScene &p_trace, const Vector3 &p_position, const Vector3 &p_horizon, Random &r_random) const;
 	// Density over area (1 / m^2) with which sample_emitter chooses points of this triangle.
@@ -79,6 +80,7 @@ private:
 
 	std::vector<Emitter> emitters;
 	std::vector<float> area_pdfs; // by first_emitter + primitive; 0: never chosen
+	bool negative = false; // one of the lamps is
 	std::vector<Lamp> lamps;
 };
 

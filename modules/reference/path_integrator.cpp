@@ -190,44 +190,49 @@ void PathIntegrator::add_sky_light(Path &r_path, const Vertex &p_vertex, Random 
 	r_path.radiance += r_path.throughput * evaluation.value_cos * sample.radiance * visible * (power_heuristic(sample.pdf, evaluation.pdf) / sample.pdf);
 }
 
-// At the first surface each of a few lamps has its own ray: the picture's sharpest edges are their shadows.
+// At the first surface each of a few lamps has its own ray: the picture's sharpest edges are their shadows. So has each of all lamps where
+// some are negative: a surface that is seen shows their sum, but where light bounces they take no more than the others give.
 void PathIntegrator::add_lamps_light(Path &r_path, const Vertex &p_vertex, Random &r_random) {
 	constexpr uint32_t MAX_SEPARATE = 8;
 	const uint32_t count = world.lights.lamp_count();
 	const Vector3 &position = p_vertex.point.position;
 	const bool indirect = r_path.bounce > 0;
-	if (!indirect && count <= MAX_SEPARATE) {
+	Vector3 sum(0.0f);
+	if (world.lights.has_negative_lamps() || (!indirect && count <= MAX_SEPARATE)) {
 		for (uint32_t lamp = 0; lamp < count; lamp++) {
-			add_lamp_light(r_path, p_vertex, world.lights.sample_lamp(lamp, position, false, r_random), 1.0f);
+			sum += lamp_light(p_vertex, world.lights.sample_lamp(lamp, position, indirect, r_random), indirect);
 		}
-		return;
+		sum = indirect ? glm::max(sum, Vector3(0.0f)) : sum;
+	} else {
+		float probability = 1.0f;
+		const uint32_t lamp = count > 0 ? world.lights.choose_lamp(position, p_vertex.point.normal, indirect, r_random, probability) : UINT32_MAX;
+		if (lamp != UINT32_MAX) {
+			sum = lamp_light(p_vertex, world.lights.sample_lamp(lamp, position, indirect, r_random), indirect) / probability;
+		}
 	}
-	float probability = 1.0f;
-	const uint32_t lamp = count > 0 ? world.lights.choose_lamp(position, p_vertex.point.normal, indirect, r_random, probability) : UINT32_MAX;
-	if (lamp != UINT32_MAX) {
-		add_lamp_light(r_path, p_vertex, world.lights.sample_lamp(lamp, position, indirect, r_random), probability);
+	sum *= r_path.throughput;
+	r_path.radiance += sum;
+	if (r_path.first) {
+		r_path.first->direct += sum;
 	}
 }
 
-void PathIntegrator::add_lamp_light(Path &r_path, const Vertex &p_vertex, const LampSample &p_sample, float p_probability) {
+Vector3 PathIntegrator::lamp_light(const Vertex &p_vertex, const LampSample &p_sample, bool p_indirect) {
 	const SurfacePoint &point = p_vertex.point;
 	const float cosine = glm::dot(point.normal, p_sample.direction);
 	if (cosine <= 0.0f || glm::dot(point.geometric_normal, p_sample.direction) <= 0.0f || is_black(p_sample.power)) {
-		return;
+		return Vector3(0.0f);
 	}
 	Vector3 value = brdf::brdf_diffuse(point.lobes);
 	if (!p_vertex.lambertian) {
 		value += brdf::brdf_specular(point.lobes, point.normal, p_vertex.view, p_sample.direction) * p_sample.specular;
 	}
-	value *= p_sample.power * (PI * cosine / p_probability);
+	value *= p_sample.power * (PI * cosine);
 	if (p_sample.shadow_opacity > 0.0f) {
-		value *= glm::mix(Vector3(1.0f), visibility(p_vertex, p_sample.direction, p_sample.distance_m, RAY_LAMP_SHADOW), p_sample.shadow_opacity);
+		const RayMask mask = p_indirect ? RAY_BOUNCE : RAY_LAMP_SHADOW;
+		value *= glm::mix(Vector3(1.0f), visibility(p_vertex, p_sample.direction, p_sample.distance_m, mask), p_sample.shadow_opacity);
 	}
-	value *= r_path.throughput;
-	r_path.radiance += value;
-	if (r_path.first) {
-		r_path.first->direct += value;
-	}
+	return value;
 }
 
 // Blend equations that are not a mixture: the surface is seen and what is behind it is too, half of the paths each.

@@ -80,7 +80,8 @@ private:
 	void add_emitter_light(Path &r_path, const Vertex &p_vertex, Random &r_random);
 	void add_sky_light(Path &r_path, const Vertex &p_vertex, Random &r_random);
 	void add_lamps_light(Path &r_path, const Vertex &p_vertex, Random &r_random);
-	void add_lamp_light(Path &r_path, const Vertex &p_vertex, const LampSample &p_sample, float p_probability);
+	// What the surface sends towards the view of a lamp's light.
+	Vector3 lamp_light(const Vertex &p_vertex, const LampSample &p_sample, bool p_indirect);
 	// False: the surface let the path through, which goes on behind it.
 	bool resolve_blend(Path &r_path, const Vertex &p_vertex, const Material &p_material, Random &r_random);
 	bool sample_direction(Path &r_path, const Vertex &p_vertex, Random &r_random);

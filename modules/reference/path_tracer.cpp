@@ -169,7 +169,7 @@ struct PathTracer::Impl {
 		return !stopped;
 	}
 
-	static PathTracerResult develop(const Film &p_film) {
+	PathTracerResult develop(const Film &p_film) const {
 		PathTracerResult result;
 		result.width = p_film.settings.width;
 		result.height = p_film.settings.height;
@@ -179,7 +179,7 @@ struct PathTracer::Impl {
 		for (const PixelSums &pixel : p_film.pixels) {
 			const double n = std::max(1u, pixel.count);
 			const glm::dvec3 mean = pixel.sum / n;
-			put(result.radiance, mean);
+			put(result.radiance, world.lights.has_negative_lamps() ? glm::max(mean, glm::dvec3(0.0)) : mean);
 			put(result.variance, glm::max(pixel.square / n - mean * mean, glm::dvec3(0.0)) / std::max(n - 1.0, 1.0));
 			result.spp = std::min(result.spp, pixel.count);
 			result.untraced_pixels += pixel.count == 0;
@@ -211,13 +211,18 @@ Result<std::unique_ptr<PathTracer>> PathTracer::create(const RenderScene &p_scen
 		return make_error("path tracer: the {} does not exist", camera ? "scenario" : "camera");
 	}
 	auto impl = std::make_unique<Impl>();
-	Result<std::unique_ptr<TraceScene>> scene = TraceScene::create(p_scene, p_scenario, *camera);
+	// Where the raster frame of this camera has its origin, so that both see the same coordinates.
+	RenderOrigin origin;
+	const Environment *environment = p_scene.find_environment(*p_scene.scenarios.get(p_scenario), *camera);
+	origin.follow(camera->transform.origin, environment ? environment->sdfgi : SdfgiSettings());
+	Result<std::unique_ptr<TraceScene>> scene = TraceScene::create(p_scene, p_scenario, *camera, origin);
 	if (!scene) {
 		return scene.error();
 	}
 	impl->world.camera = *camera;
+	impl->world.camera.transform = origin.render_from_world(camera->transform);
 	impl->world.scene = scene.take();
-	impl->world.lights = LightSampler(p_scene, p_scenario, *impl->world.scene);
+	impl->world.lights = LightSampler(p_scene, p_scenario, origin, *impl->world.scene);
 	impl->world.sky = TraceSky(p_scene, p_scenario, *camera);
 	return std::unique_ptr<PathTracer>(new PathTracer(std::move(impl)));
 }
@@ -254,7 +259,7 @@ Result<PathTracerResult> PathTracer::render(const PathTracerSettings &p_settings
 		}
 		pass = uint32_t(std::clamp(budget / per_sample, 1.0, 256.0));
 	}
-	PathTracerResult result = Impl::develop(*film);
+	PathTracerResult result = impl->develop(*film);
 	result.seconds = seconds_since(start);
 	return result;
 }

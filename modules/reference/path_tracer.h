@@ -6,8 +6,11 @@
 //   - camera rays see what the raster camera sees: culled sides are skipped, shadows-only instances are invisible;
 //   - every other ray finds both sides of each surface; they reflect with the same albedo, whatever the material culls;
 //   - a surface emits from its visible sides only: the front with MaterialCull::BACK, both with DISABLED;
-//   - lamps follow the scene: no shadow where shadow_enabled is off, indirect_energy and bake_mode apply after the first bounce;
+//   - on the first surface a lamp has no shadow where shadow_enabled is off; after that everything stops it, as in GI, and indirect_energy
+//     and bake_mode apply;
+//   - negative lamps: a pixel's mean is at least 0, and so is the sum of all lamps where light bounces;
 //   - occlusion textures, ambient colours and read_sky_light are approximations of transport and are ignored;
+//   - coordinates are relative to the RenderOrigin of the frame that the camera would draw;
 //   - textures are read at level 0, bilinear unless the filter is nearest.
 
 #include "servers/core/error.h"
@@ -57,7 +60,8 @@ struct PathTracerResult {
 	std::vector<float> radiance; // the mean
 	std::vector<float> variance; // of the mean: +- 1.96 sqrt(variance) is a 95 % interval. Unknown, and written as 0, where a pixel has fewer than 2 samples
 
-	// With PathTracerSettings::aov; else empty. radiance = direct + indirect + emission + background.
+	// With PathTracerSettings::aov; else empty. radiance = direct + indirect + emission + background, but for pixels
+	// that negative lamps would take below 0.
 	std::vector<float> direct; // light of lamps that the first surface reflects
 	std::vector<float> indirect; // everything else that it reflects: emissive surfaces, sky, bounces
 	std::vector<float> emission; // of the first surface (unshaded ones: their colour)

@@ -83,7 +83,7 @@ TraceScene::~TraceScene() {
 	}
 }
 
-Result<std::unique_ptr<TraceScene>> TraceScene::create(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera) {
+Result<std::unique_ptr<TraceScene>> TraceScene::create(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera, const RenderOrigin &p_origin) {
 	std::unique_ptr<TraceScene> scene(new TraceScene);
 	scene->device = rtcNewDevice(nullptr);
 	if (!scene->device) {
@@ -95,7 +95,7 @@ Result<std::unique_ptr<TraceScene>> TraceScene::create(const RenderScene &p_scen
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
 		const Mesh *mesh = p_scene.meshes.get(p_instance.mesh);
 		if (mesh && p_instance.scenario == p_scenario && p_instance.visible) {
-			scene->add_instance(p_scene, p_instance, *mesh, p_camera.cull_mask);
+			scene->add_instance(p_scene, p_instance, p_origin.render_from_world(p_instance.transform), *mesh, p_camera.cull_mask);
 		}
 	});
 	scene->material_indices.clear();
@@ -106,7 +106,7 @@ Result<std::unique_ptr<TraceScene>> TraceScene::create(const RenderScene &p_scen
 	return scene;
 }
 
-void TraceScene::add_instance(const RenderScene &p_scene, const Instance &p_instance, const Mesh &p_mesh, uint32_t p_cull_mask) {
+void TraceScene::add_instance(const RenderScene &p_scene, const Instance &p_instance, const Transform3D &p_transform, const Mesh &p_mesh, uint32_t p_cull_mask) {
 	uint32_t mask = 0;
 	if (p_instance.shadow_casting != ShadowCasting::SHADOWS_ONLY) {
 		mask |= RAY_BOUNCE | ((p_instance.layers & p_cull_mask) ? uint32_t(RAY_CAMERA) : 0u);
@@ -120,7 +120,7 @@ void TraceScene::add_instance(const RenderScene &p_scene, const Instance &p_inst
 		surface.orientation = glm::determinant(p_instance.transform.basis) < 0.0f ? -1.0f : 1.0f;
 		surface.opacity = 1.0f - glm::clamp(p_instance.transparency, 0.0f, 1.0f);
 		surface.material = add_material(p_scene, p_scene.surface_material(p_instance, p_mesh, i));
-		add_geometry(std::move(surface), p_instance.transform, mask);
+		add_geometry(std::move(surface), p_transform, mask);
 	}
 }
 

@@ -2,10 +2,11 @@
 #pragma once
 // A scenario flattened for tracing: one Embree geometry for each surface of each visible instance, in world space.
 
-#include "modules/reference/brdf.h"
 #include "modules/reference/texel_group.h"
 #include "servers/core/error.h"
+#include "servers/rendering/render_origin.h"
 #include "servers/rendering/render_scene.h"
+#include "servers/rendering/shaders/brdf.h"
 
 #include <memory>
 #include <vector>
@@ -92,8 +93,8 @@ struct Ray {
 
 class TraceScene {
 public:
-	// p_camera's layers decide what camera rays see.
-	static Result<std::unique_ptr<TraceScene>> create(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera);
+	// All positions are relative to p_origin. p_camera's layers decide what camera rays see.
+	static Result<std::unique_ptr<TraceScene>> create(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera, const RenderOrigin &p_origin);
 	~TraceScene();
 
 	// p_noise: any bits that differ from ray to ray; they decide stochastic transparency.
@@ -118,7 +119,8 @@ public:
 
 private:
 	TraceScene() = default;
-	void add_instance(const RenderScene &p_scene, const Instance &p_instance, const Mesh &p_mesh, uint32_t p_cull_mask);
+	// p_transform: the instance's, relative to the origin.
+	void add_instance(const RenderScene &p_scene, const Instance &p_instance, const Transform3D &p_transform, const Mesh &p_mesh, uint32_t p_cull_mask);
 	uint32_t add_material(const RenderScene &p_scene, const Material *p_material);
 	void add_textures(const RenderScene &p_scene, TraceMaterial &r_material);
 	void add_geometry(TraceSurface p_surface, const Transform3D &p_transform, uint32_t p_mask);

@@ -13,18 +13,6 @@ constexpr float PI = 3.14159265358979f;
 // Project setting rendering/environment/defaults/default_clear_color: 0.3 in sRGB.
 constexpr float CLEAR_COLOR = 0.073239f;
 
-const Environment *find_environment(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera) {
-	if (const Environment *environment = p_scene.environments.get(p_camera.environment)) {
-		return environment;
-	}
-	const Scenario *scenario = p_scene.scenarios.get(p_scenario);
-	if (!scenario) {
-		return nullptr;
-	}
-	const Environment *environment = p_scene.environments.get(scenario->environment);
-	return environment ? environment : p_scene.environments.get(scenario->fallback_environment);
-}
-
 float mean(const Vector3 &p_value) {
 	return (p_value.x + p_value.y + p_value.z) / 3.0f;
 }
@@ -55,7 +43,8 @@ size_t find_interval(const float *p_cdf, size_t p_count, float &r_random) {
 } // namespace
 
 TraceSky::TraceSky(const RenderScene &p_scene, ScenarioRid p_scenario, const Camera &p_camera) {
-	const Environment *environment = find_environment(p_scene, p_scenario, p_camera);
+	const Scenario *scenario = p_scene.scenarios.get(p_scenario);
+	const Environment *environment = scenario ? p_scene.find_environment(*scenario, p_camera) : nullptr;
 	if (!environment || environment->background == BackgroundMode::CLEAR_COLOR) {
 		color = Vector3(CLEAR_COLOR) * (environment ? environment->background_energy : 1.0f);
 		return;

@@ -36,9 +36,9 @@ std::string escape(const std::string &p_text) {
 // type="int" enum="Environment.BGMode"
 std::string type_attributes(Variant::Type p_type, const std::string &p_class, const char *p_nil) {
 	if (p_type == Variant::Type::NIL) {
-		return fmt::format("type=\"{}\"", p_nil);
+		return fmt::format("type=\"{}\"", p_class.empty() ? p_nil : p_class);
 	}
-	if (p_type == Variant::Type::OBJECT) {
+	if (p_type == Variant::Type::OBJECT || (p_type == Variant::Type::ARRAY && !p_class.empty())) {
 		return fmt::format("type=\"{}\"", p_class);
 	}
 	std::string text = fmt::format("type=\"{}\"", Variant::get_type_name(p_type));
@@ -52,9 +52,12 @@ void write_description(std::string &r_xml, const char *p_indent, const std::stri
 	r_xml += fmt::format("{0}<description>\n{0}\t{1}\n{0}</description>\n", p_indent, escape(p_text));
 }
 
-void write_arguments(std::string &r_xml, const std::vector<ArgumentInfo> &p_arguments) {
+// p_defaults: of the last ones.
+void write_arguments(std::string &r_xml, const std::vector<ArgumentInfo> &p_arguments, const std::vector<Variant> &p_defaults = {}) {
+	const size_t first_default = p_arguments.size() - p_defaults.size();
 	for (size_t i = 0; i < p_arguments.size(); i++) {
-		r_xml += fmt::format("\t\t\t<param index=\"{}\" name=\"{}\" {} />\n", i, p_arguments[i].name, type_attributes(p_arguments[i].type, p_arguments[i].class_name, "Variant"));
+		const std::string value = i < first_default ? "" : fmt::format(" default=\"{}\"", escape(p_defaults[i - first_default].to_string()));
+		r_xml += fmt::format("\t\t\t<param index=\"{}\" name=\"{}\" {}{} />\n", i, p_arguments[i].name, type_attributes(p_arguments[i].type, p_arguments[i].class_name, "Variant"), value);
 	}
 }
 
@@ -64,9 +67,13 @@ void write_methods(std::string &r_xml, const ClassInfo &p_info) {
 		if (method.is_accessor) {
 			continue; // named by the member
 		}
-		body += fmt::format("\t\t<method name=\"{}\"{}>\n", method.name, method.is_const ? " qualifiers=\"const\"" : "");
+		std::string qualifiers;
+		for (const auto &[has, name] : { std::pair(method.is_virtual, "virtual"), std::pair(method.is_vararg, "vararg"), std::pair(method.is_static, "static"), std::pair(method.is_const, "const") }) {
+			qualifiers += has ? (qualifiers.empty() ? name : std::string(" ") + name) : "";
+		}
+		body += fmt::format("\t\t<method name=\"{}\"{}>\n", method.name, qualifiers.empty() ? "" : fmt::format(" qualifiers=\"{}\"", qualifiers));
 		body += fmt::format("\t\t\t<return {} />\n", type_attributes(method.result.type, method.result.class_name, "void"));
-		write_arguments(body, method.arguments);
+		write_arguments(body, method.arguments, method.default_arguments);
 		write_description(body, "\t\t\t", method.documentation);
 		body += "\t\t</method>\n";
 	}

@@ -74,10 +74,10 @@ void Light3D::bind(ClassBuilder<Light3D> &r_class) {
 	r_class.field("light_indirect_energy", P, &Light::indirect_energy).range(0, 16, 0.001).or_greater().doc("Multiplies the light's part in global illumination.");
 	r_class.field("light_angular_distance", P, &Light::angular_size_degrees).range(0, 90, 0.01).enforced().doc("How wide a sun looks, in degrees; its shadows soften with it.");
 	r_class.field("light_size", P, &Light::size_m).range(0, 1, 0.001).or_greater().doc("Radius of a lamp, in metres; its shadows soften with it.");
-	r_class.field("light_negative", P, &Light::negative).doc("Takes light away.");
-	r_class.field("light_specular", P, &Light::specular).range(0, 16, 0.001).or_greater().doc("Multiplies the light's highlights.");
+	r_class.field("light_negative", P, &Light::negative).doc("Takes light away, no more than there is.");
+	r_class.field("light_specular", P, &Light::specular).range(0, 16, 0.001).or_greater().doc("Multiplies the light's highlights; omni and spot lights have them in full at 0.5.");
 	r_class.field("light_bake_mode", P, &Light::bake_mode).enum_of("BakeMode").doc("A disabled light has no part in global illumination.");
-	r_class.field("shadow_enabled", P, &Light::shadow_enabled).doc("Whether the light casts shadows.");
+	r_class.field("shadow_enabled", P, &Light::shadow_enabled).doc("Whether the light that falls on what is seen casts shadows; in global illumination every light does.");
 	r_class.field("shadow_bias", P, &Light::shadow_bias).range(0, 10, 0.001).doc("Moves shadows away from their casters, against acne.");
 	r_class.field("shadow_normal_bias", P, &Light::shadow_normal_bias).range(0, 10, 0.001).doc("Moves look-ups along the normal, in texels of the shadow map.");
 	r_class.field("shadow_opacity", P, &Light::shadow_opacity).range(0, 1, 0.01).enforced().doc("How dark shadows are.");

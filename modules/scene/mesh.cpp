@@ -129,11 +129,30 @@ void Mesh::bind(ClassBuilder<Mesh> &r_class) {
 	r_class.method("get_surface_count", &Mesh::get_surface_count).doc("How many surfaces there are.");
 	r_class.method("surface_get_material", &Mesh::surface_get_material, { "surf_idx" }).doc("The material of one surface, or null.");
 	r_class.method("surface_set_material", &Mesh::surface_set_material, { "surf_idx", "material" }).doc("Gives one surface a material.");
+	r_class.enumeration("PrimitiveType", { { "PRIMITIVE_TRIANGLES", 3, "Three vertices a triangle." } });
+	r_class.enumeration("ArrayType", { { "ARRAY_VERTEX", MeshArray::VERTEX, "Positions, in metres." }, { "ARRAY_NORMAL", MeshArray::NORMAL, "Unit normals." }, { "ARRAY_TANGENT", MeshArray::TANGENT, "Tangents, 4 floats a vertex; the last is the bitangent's sign." }, { "ARRAY_COLOR", MeshArray::COLOR, "Linear colours." }, { "ARRAY_TEX_UV", MeshArray::TEX_UV, "Texture coordinates." }, { "ARRAY_TEX_UV2", MeshArray::TEX_UV2, "The second texture coordinates." }, { "ARRAY_INDEX", MeshArray::INDEX, "Vertices of the triangles." }, { "ARRAY_MAX", MeshArray::COUNT, "How many arrays a surface has." } });
+	r_class.method(
+				   "surface_get_arrays", +[](const Mesh &p_mesh, int p_surface) -> Result<Array> {
+					   const std::shared_ptr<const MeshSurface> surface = p_mesh.surface_get_arrays(p_surface);
+					   return surface ? Result<Array>(arrays_from_surface(*surface)) : Result<Array>(make_error("Mesh.surface_get_arrays(): there is no surface {}", p_surface)); }, { "surf_idx" })
+			.doc("The arrays of a surface by ArrayType, null where there are none.");
 	r_class.method("get_aabb", &Mesh::get_aabb).doc("The box around all vertices, in the mesh's own space.");
 }
 
 void ArrayMesh::bind(ClassBuilder<ArrayMesh> &r_class) {
 	r_class.doc("A mesh of given triangles, as files have them.");
+	r_class.method("add_surface_from_arrays", &ArrayMesh::add_surface_from_arrays, { "primitive", "arrays" }).argument_class(0, "Mesh.PrimitiveType").doc("Adds a surface of arrays by Mesh.ArrayType, null where there are none. Without indices three vertices are a triangle; counter-clockwise is the front.");
+	r_class.method("surface_remove", &ArrayMesh::surface_remove, { "surf_idx" }).doc("Removes a surface.");
+	r_class.method(
+				   "surface_get_array_len", +[](const ArrayMesh &p_mesh, int p_surface) {
+					   const std::shared_ptr<const MeshSurface> surface = p_mesh.surface_get_arrays(p_surface);
+					   return surface ? int64_t(surface->positions.size()) : int64_t(0); }, { "surf_idx" })
+			.doc("How many vertices a surface has.");
+	r_class.method(
+				   "surface_get_array_index_len", +[](const ArrayMesh &p_mesh, int p_surface) {
+					   const std::shared_ptr<const MeshSurface> surface = p_mesh.surface_get_arrays(p_surface);
+					   return surface ? int64_t(surface->indices.size()) : int64_t(0); }, { "surf_idx" })
+			.doc("How many indices a surface has.");
 	r_class.method("clear_surfaces", &ArrayMesh::clear_surfaces).doc("Removes all surfaces.");
 	r_class.method("surface_get_name", &ArrayMesh::surface_get_name, { "surf_idx" }).doc("The name of one surface.");
 }

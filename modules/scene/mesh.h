@@ -34,6 +34,23 @@ private:
 	bool geometry_sent = false;
 };
 
+// Godot's Mesh.ArrayType.
+enum class MeshArray : uint8_t {
+	VERTEX,
+	NORMAL,
+	TANGENT,
+	COLOR,
+	TEX_UV,
+	TEX_UV2,
+	INDEX = 12,
+	COUNT,
+};
+// A wrong type, length or index is an error that says which.
+Result<MeshSurface> surface_from_arrays(const Array &p_arrays);
+Array arrays_from_surface(const MeshSurface &p_surface);
+// What RenderingServer would refuse: lengths, indices, values that aren't finite. p_name stands for the mesh in the message.
+Status check_surface(const MeshSurface &p_surface, const std::string &p_name);
+
 // A mesh of given triangles.
 class ArrayMesh : public Mesh {
 	LUCENT_CLASS(ArrayMesh, Mesh)
@@ -43,7 +60,10 @@ public:
 	Ref<Material> surface_get_material(int p_surface) const override;
 	void surface_set_material(int p_surface, const Ref<Material> &p_material) override;
 	void add_surface(MeshSurface p_arrays, Ref<Material> p_material = nullptr, std::string p_name = "");
+	// Godot's form: arrays by Mesh.ArrayType, null where there are none; three vertices a triangle where there is no index.
+	Status add_surface_from_arrays(int p_primitive, const Array &p_arrays);
 	void clear_surfaces();
+	void surface_remove(int p_surface);
 	std::string surface_get_name(int p_surface) const;
 
 	// surface_N/material

@@ -61,27 +61,36 @@ Node *Node::add_child(std::unique_ptr<Node> p_child) {
 	child->parent = this;
 	children_by_name[child->name] = child;
 	children.push_back(std::move(p_child));
-	child->notification(NOTIFICATION_PARENTED);
-	if (tree) {
-		child->enter_tree(tree);
-		child->send_ready();
+	{
+		const ChildrenLock lock(*this);
+		child->notification(NOTIFICATION_PARENTED);
+		if (tree) {
+			child->enter_tree(tree);
+			child->send_ready();
+		}
+		emit_signal("child_entered_tree", { Variant(child) });
 	}
-	emit_signal("child_entered_tree", { Variant(child) });
+	emit_signal("child_order_changed");
 	return child;
 }
 
 std::unique_ptr<Node> Node::remove_child(Node *p_child) {
-	const auto found = std::find_if(children.begin(), children.end(), [&](const auto &p_other) { return p_other.get() == p_child; });
-	ERR_FAIL_COND_V_MSG(found == children.end(), nullptr, "'{}' has no such child", name);
-	emit_signal("child_exiting_tree", { Variant(p_child) });
-	if (tree) {
-		p_child->exit_tree();
+	ERR_FAIL_COND_V_MSG(!p_child || p_child->parent != this, nullptr, "'{}' has no such child", name);
+	ERR_FAIL_COND_V_MSG(children_locked > 0, nullptr, "'{}' is busy with its children: '{}' can't be removed in the middle of it; queue_free() can be used", name, p_child->name);
+	{
+		const ChildrenLock lock(*this);
+		emit_signal("child_exiting_tree", { Variant(p_child) });
+		if (tree) {
+			p_child->exit_tree();
+		}
 	}
+	const auto found = std::find_if(children.begin(), children.end(), [&](const auto &p_other) { return p_other.get() == p_child; });
 	std::unique_ptr<Node> child = std::move(*found);
 	children.erase(found);
 	children_by_name.erase(child->name);
 	child->parent = nullptr;
 	child->notification(NOTIFICATION_UNPARENTED);
+	emit_signal("child_order_changed");
 	return child;
 }
 
@@ -89,9 +98,14 @@ void Node::queue_free() {
 	if (tree) {
 		tree->queue_delete(this);
 	} else {
-		ERR_FAIL_COND_MSG(!parent, "'{}' has no parent that could free it", name);
-		parent->remove_child(this);
+		std::unique_ptr<Object> owned = release_from_owner();
+		ERR_FAIL_COND_MSG(!owned, "'{}' has no parent that could free it", name);
+		ScriptOwned::destroy(std::move(owned));
 	}
+}
+
+std::unique_ptr<Object> Node::release_from_owner() {
+	return parent ? std::unique_ptr<Object>(parent->remove_child(this)) : ScriptOwned::take(get_instance_id());
 }
 
 Node *Node::get_child(int p_index) const {
@@ -173,30 +187,20 @@ Node *Node::get_node(const NodePath &p_path) {
 	return node;
 }
 
-Node *Node::find_child(const std::string &p_name) {
-	for (const auto &child : children) {
-		if (child->name == p_name) {
-			return child.get();
-		}
-		if (Node *found = child->find_child(p_name)) {
-			return found;
-		}
-	}
-	return nullptr;
-}
-
 double Node::get_process_delta_time() const {
 	return tree ? tree->get_process_time() : 0.0;
 }
 
 void Node::propagate_notification(int p_what) {
+	const ChildrenLock lock(*this);
 	notification(p_what);
-	for (const auto &child : children) {
-		child->propagate_notification(p_what);
+	for (size_t i = 0; i < children.size(); i++) { // a handler may add children
+		children[i]->propagate_notification(p_what);
 	}
 }
 
 void Node::enter_tree(SceneTree *p_tree) {
+	const ChildrenLock lock(*this);
 	tree = p_tree;
 	notification(NOTIFICATION_ENTER_TREE);
 	emit_signal("tree_entered");
@@ -210,6 +214,7 @@ void Node::enter_tree(SceneTree *p_tree) {
 }
 
 void Node::send_ready() {
+	const ChildrenLock lock(*this);
 	for (size_t i = 0; i < children.size(); i++) {
 		children[i]->send_ready();
 	}
@@ -221,11 +226,17 @@ void Node::send_ready() {
 }
 
 void Node::exit_tree() {
+	const ChildrenLock lock(*this);
 	for (size_t i = children.size(); i-- > 0;) {
 		children[i]->exit_tree();
 	}
 	emit_signal("tree_exiting");
 	notification(NOTIFICATION_EXIT_TREE);
+	for (size_t i = children.size(); i-- > 0;) {
+		if (children[i]->tree) { // added by a handler
+			children[i]->exit_tree();
+		}
+	}
 	tree->node_left(this);
 	tree = nullptr;
 	emit_signal("tree_exited");

@@ -28,6 +28,14 @@ public:
 		NOTIFICATION_UNPARENTED = 19,
 		NOTIFICATION_SCENE_INSTANTIATED = 20,
 	};
+	// Who gets frames: as the parent, while the tree isn't paused, only while it is, always, never.
+	enum class ProcessMode : uint8_t {
+		INHERIT,
+		PAUSABLE,
+		WHEN_PAUSED,
+		ALWAYS,
+		DISABLED,
+	};
 
 	Node() = default;
 	~Node() override;
@@ -49,8 +57,21 @@ public:
 		}
 		return add(std::move(child));
 	}
-	// Null: not a child.
+	// Null: not a child, or the children are just being told of something (an error).
 	std::unique_ptr<Node> remove_child(Node *p_child);
+	// The child's new place; negative ones count from the end.
+	Status move_child(Node *p_child, int p_index);
+	int get_index() const; // among the parent's children; -1 without one
+	// To the end of another parent's children; keeps the owner where that is above the new parent. See reparent_keeping_place.
+	Status reparent(Node *p_new_parent);
+	// A copy of the node and all below it, outside of any tree, as far as p_flags say: DUPLICATE_GROUPS, DUPLICATE_SCRIPTS.
+	// Resources are shared.
+	std::unique_ptr<Node> duplicate(uint32_t p_flags = DUPLICATE_SIGNALS | DUPLICATE_GROUPS | DUPLICATE_SCRIPTS) const;
+	enum DuplicateFlags : uint32_t {
+		DUPLICATE_SIGNALS = 1, // connections by connect_callable
+		DUPLICATE_GROUPS = 2,
+		DUPLICATE_SCRIPTS = 4,
+	};
 	// Deleted with its children at the end of the frame; at once outside of a tree, where it must have a parent.
 	void queue_free();
 
@@ -79,8 +100,12 @@ public:
 	// The same, with an error if it is not there.
 	Node *get_node(const NodePath &p_path);
 	bool has_node(const NodePath &p_path) { return get_node_or_null(p_path) != nullptr; }
-	// The first one below, depth first, of exactly that name.
-	Node *find_child(const std::string &p_name);
+	// Below, depth first. p_pattern: a name, in which * stands for any characters and ? for one. p_owned: only those with an owner.
+	Node *find_child(const std::string &p_pattern, bool p_recursive = true, bool p_owned = false) const;
+	// p_type: a class; empty: any.
+	std::vector<Node *> find_children(const std::string &p_pattern, const std::string &p_type = "", bool p_recursive = true, bool p_owned = false) const;
+	Node *find_parent(const std::string &p_pattern) const; // null: none
+	NodePath get_path_to(const Node *p_node) const; // empty, with an error: no common parent
 
 	void add_to_group(const std::string &p_group) { groups.insert(p_group); }
 	void remove_from_group(const std::string &p_group) { groups.erase(p_group); }
@@ -93,9 +118,30 @@ public:
 	void set_process_priority(int p_priority) { process_priority = p_priority; }
 	int get_process_priority() const { return process_priority; }
 	double get_process_delta_time() const; // seconds
+	void set_process_mode(ProcessMode p_mode) { process_mode = p_mode; }
+	ProcessMode get_process_mode() const { return process_mode; }
+	bool can_process() const; // in a tree, and the mode allows it now
+	void request_ready() { ready_sent = false; } // NOTIFICATION_READY comes again when the node next enters a tree
 
 	// This node and everything below it, parents first.
 	void propagate_notification(int p_what);
+
+protected:
+	void notify_script(int p_what) override;
+	std::unique_ptr<Object> release_from_owner() override;
+
+	// While one lives, children stay where they are: someone goes through them.
+	class ChildrenLock {
+	public:
+		explicit ChildrenLock(Node &r_node) :
+				node(r_node) { node.children_locked++; }
+		~ChildrenLock() { node.children_locked--; }
+		ChildrenLock(const ChildrenLock &) = delete;
+		ChildrenLock &operator=(const ChildrenLock &) = delete;
+
+	private:
+		Node &node;
+	};
 
 private:
 	friend class SceneTree;
@@ -116,6 +162,8 @@ private:
 	std::string scene_file_path;
 	std::set<std::string> groups;
 	int process_priority = 0;
+	int children_locked = 0;
+	ProcessMode process_mode = ProcessMode::INHERIT;
 	bool processing = false;
 	bool unique_name_in_owner = false;
 	bool ready_sent = false;

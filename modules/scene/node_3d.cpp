@@ -173,8 +173,9 @@ void Node3D::set_visible(bool p_visible) {
 void Node3D::propagate_visibility_changed() {
 	notification(NOTIFICATION_VISIBILITY_CHANGED);
 	emit_signal("visibility_changed");
-	for (const auto &child : get_children()) {
-		Node3D *below = dynamic_cast<Node3D *>(child.get());
+	const ChildrenLock lock(*this);
+	for (int i = 0; i < get_child_count(); i++) { // a handler may add children
+		Node3D *below = dynamic_cast<Node3D *>(get_child(i));
 		if (below && below->visible) {
 			below->propagate_visibility_changed();
 		}
@@ -199,6 +200,58 @@ void Node3D::_notification(int p_what) {
 	}
 }
 
+static Basis rotated(const Vector3 &p_axis, float p_angle) {
+	return glm::mat3_cast(glm::angleAxis(p_angle, glm::normalize(p_axis)));
+}
+
+// Godot's short ways to move, in terms of transforms.
+static void bind_movement(ClassBuilder<Node3D> &r_class) {
+	r_class.method("look_at", &Node3D::look_at, { "target", "up" }).defaults({ Vector3(0, 1, 0) }).doc("Turns the node's -z towards a point of the world.");
+	r_class.method(
+				   "look_at_from_position", +[](Node3D &r_node, const Vector3 &p_position, const Vector3 &p_target, const Vector3 &p_up) {
+					   r_node.set_global_position(p_position);
+					   r_node.look_at(p_target, p_up); }, { "position", "target", "up" })
+			.defaults({ Vector3(0, 1, 0) })
+			.doc("Puts the node somewhere in the world and turns its -z towards a point.");
+	r_class.method(
+				   "translate", +[](Node3D &r_node, const Vector3 &p_offset) { r_node.set_position(r_node.get_transform().xform(p_offset)); }, { "offset" })
+			.doc("Moves the node along its own axes.");
+	r_class.method(
+				   "global_translate", +[](Node3D &r_node, const Vector3 &p_offset) { r_node.set_global_position(r_node.get_global_position() + p_offset); }, { "offset" })
+			.doc("Moves the node along the world's axes.");
+	r_class.method(
+				   "rotate", +[](Node3D &r_node, const Vector3 &p_axis, float p_angle) -> Status {
+					   if (!(glm::length(p_axis) > 0.0f)) {
+						   return make_error("Node3D.rotate(): the axis has no direction");
+					   }
+					   r_node.set_basis(rotated(p_axis, p_angle) * r_node.get_basis());
+					   return Ok(); }, { "axis", "angle" })
+			.doc("Turns the node about an axis of the parent, in radians.");
+	r_class.method(
+				   "rotate_x", +[](Node3D &r_node, float p_angle) { r_node.set_basis(rotated(Vector3(1, 0, 0), p_angle) * r_node.get_basis()); }, { "angle" })
+			.doc("Turns the node about the parent's x axis, in radians.");
+	r_class.method(
+				   "rotate_y", +[](Node3D &r_node, float p_angle) { r_node.set_basis(rotated(Vector3(0, 1, 0), p_angle) * r_node.get_basis()); }, { "angle" })
+			.doc("Turns the node about the parent's y axis, in radians.");
+	r_class.method(
+				   "rotate_z", +[](Node3D &r_node, float p_angle) { r_node.set_basis(rotated(Vector3(0, 0, 1), p_angle) * r_node.get_basis()); }, { "angle" })
+			.doc("Turns the node about the parent's z axis, in radians.");
+	r_class.method(
+				   "to_global", +[](const Node3D &p_node, const Vector3 &p_point) { return p_node.get_global_transform().xform(p_point); }, { "local_point" })
+			.doc("A point of the node's space, in the world.");
+	r_class.method(
+				   "to_local", +[](const Node3D &p_node, const Vector3 &p_point) { return p_node.get_global_transform().affine_inverse().xform(p_point); }, { "global_point" })
+			.doc("A point of the world, in the node's space.");
+	r_class.method(
+				   "show", +[](Node3D &r_node) { r_node.set_visible(true); })
+			.doc("Shows the node.");
+	r_class.method(
+				   "hide", +[](Node3D &r_node) { r_node.set_visible(false); })
+			.doc("Hides the node and all below it.");
+	r_class.method("get_parent_node_3d", &Node3D::get_parent_node_3d).doc("The parent whose place this one's is relative to, or null.");
+	r_class.method("set_notify_transform", &Node3D::set_notify_transform, { "enable" }).doc("Whether NOTIFICATION_TRANSFORM_CHANGED comes.");
+}
+
 void Node3D::bind(ClassBuilder<Node3D> &r_class) {
 	r_class.doc("A node with a place in space, relative to its parent's. Metres and radians.");
 	r_class.enumeration("EulerOrder", { { "EULER_ORDER_XYZ", EulerOrder::XYZ }, { "EULER_ORDER_XZY", EulerOrder::XZY }, { "EULER_ORDER_YXZ", EulerOrder::YXZ }, { "EULER_ORDER_YZX", EulerOrder::YZX }, { "EULER_ORDER_ZXY", EulerOrder::ZXY }, { "EULER_ORDER_ZYX", EulerOrder::ZYX } });
@@ -217,7 +270,7 @@ void Node3D::bind(ClassBuilder<Node3D> &r_class) {
 	r_class.property("top_level", &Node3D::set_as_top_level, &Node3D::is_set_as_top_level).doc("Whether the parents' transforms are left out.");
 	r_class.property("visible", &Node3D::set_visible, &Node3D::is_visible).doc("Whether the node and all below it are drawn.");
 	r_class.method("is_visible_in_tree", &Node3D::is_visible_in_tree).doc("Whether the node and all its parents are visible.");
-	r_class.method("look_at", &Node3D::look_at, { "target", "up" }).doc("Turns the node's -z towards a point of the world.");
+	bind_movement(r_class);
 	r_class.signal("visibility_changed").doc("The node or a parent was shown or hidden.");
 	r_class.constant("NOTIFICATION_ENTER_WORLD", NOTIFICATION_ENTER_WORLD).doc("The node appears in the world.");
 	r_class.constant("NOTIFICATION_EXIT_WORLD", NOTIFICATION_EXIT_WORLD).doc("The node leaves the world.");

@@ -20,6 +20,7 @@ Result<std::unique_ptr<Node>> PackedScene::instantiate() const {
 void PackedScene::bind(ClassBuilder<PackedScene> &r_class) {
 	r_class.doc("A scene from a file, which can be made any number of times.");
 	r_class.method("can_instantiate", &PackedScene::can_instantiate).doc("Whether there is a scene.");
+	r_class.method("instantiate", &PackedScene::instantiate).doc("The root of a new copy of the scene, outside of any tree.");
 }
 
 } // namespace lucent::scene

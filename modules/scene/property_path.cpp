@@ -23,42 +23,19 @@ Result<Node *> find_node(Node &p_root, const NodePath &p_path) {
 	return node;
 }
 
-// The object that has the property, and how many of p_names lead to it. What follows the property is a part of its value.
-struct Target {
-	Object *object = nullptr;
-	size_t property = 0; // index into the names
-};
-
-Result<Target> find_target(Object *p_object, const std::vector<std::string> &p_names, const std::string &p_path) {
-	Target target = { p_object, 0 };
-	while (target.property + 1 < p_names.size()) {
-		const std::string &name = p_names[target.property];
-		bool valid = false;
-		const Variant value = target.object->get(name, &valid);
-		if (!valid) {
-			break; // set_property words the error
-		}
-		if (value.get_type() != Variant::Type::OBJECT) {
-			break;
-		}
-		Object *next = value.get_object();
-		if (!next) {
-			return make_error("'{}': {}.{} is null", p_path, target.object->get_class(), name);
-		}
-		target.object = next;
-		target.property++;
-	}
-	return target;
+// ":position:x" of "Box:position:x".
+NodePath property_part(const NodePath &p_path) {
+	return NodePath(p_path.text.substr(p_path.text.find(':')));
 }
 
-// p_value into the part of r_whole that p_names from p_index on speak of.
-bool set_part(Variant &r_whole, const std::vector<std::string> &p_names, size_t p_index, const Variant &p_value) {
-	if (p_index == p_names.size()) {
-		r_whole = p_value;
-		return true;
+// Object's errors begin with the property's path; the node's is put before it.
+template <typename T>
+Result<T> worded(Result<T> p_result, const NodePath &p_path) {
+	const std::string part = "'" + property_part(p_path).text + "'";
+	if (!p_result && p_result.error().message.starts_with(part)) {
+		return Error{ "'" + p_path.text + "'" + p_result.error().message.substr(part.size()) };
 	}
-	Variant part = r_whole.get_component(p_names[p_index]);
-	return !part.is_nil() && set_part(part, p_names, p_index + 1, p_value) && r_whole.set_component(p_names[p_index], part);
+	return p_result;
 }
 
 } // namespace
@@ -72,22 +49,7 @@ Status set_property_by_path(Node &p_root, const NodePath &p_path, const Variant 
 	if (!node) {
 		return node.error();
 	}
-	Result<Target> target = find_target(node.value(), names, p_path.text);
-	if (!target) {
-		return target.error();
-	}
-	Object &object = *target.value().object;
-	const std::string &property = names[target.value().property];
-	Variant whole = p_value;
-	if (target.value().property + 1 < names.size()) {
-		bool valid = false;
-		whole = object.get(property, &valid);
-		if (valid && !set_part(whole, names, target.value().property + 1, p_value)) {
-			return make_error("'{}': {}.{} has no part '{}' that could be {}", p_path.text, object.get_class(), property, names[target.value().property + 1], p_value.to_string());
-		}
-	}
-	Status status = object.set_property(property, whole);
-	return status ? Status(Ok()) : Status(make_error("'{}': {}", p_path.text, status.error().message));
+	return worded(node.value()->set_indexed(property_part(p_path), p_value), p_path);
 }
 
 Result<Variant> get_property_by_path(Node &p_root, const NodePath &p_path) {
@@ -99,24 +61,7 @@ Result<Variant> get_property_by_path(Node &p_root, const NodePath &p_path) {
 	if (!node) {
 		return node.error();
 	}
-	Result<Target> target = find_target(node.value(), names, p_path.text);
-	if (!target) {
-		return target.error();
-	}
-	const Object &object = *target.value().object;
-	const size_t property = target.value().property;
-	bool valid = false;
-	Variant value = object.get(names[property], &valid);
-	if (!valid) {
-		return make_error("'{}': {} has no property '{}'", p_path.text, object.get_class(), names[property]);
-	}
-	for (size_t i = property + 1; i < names.size(); i++) {
-		value = value.get_component(names[i]);
-		if (value.is_nil()) {
-			return make_error("'{}': {}.{} has no part '{}'", p_path.text, object.get_class(), names[property], names[i]);
-		}
-	}
-	return value;
+	return worded(node.value()->get_indexed(property_part(p_path)), p_path);
 }
 
 } // namespace lucent::scene

@@ -7,6 +7,7 @@
 #include "modules/scene/multi_mesh.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/primitive_meshes.h"
+#include "modules/scene/resource_loader.h"
 #include "modules/scene/scene_tree.h"
 #include "modules/scene/skeleton_3d.h"
 #include "modules/scene/viewport.h"
@@ -63,6 +64,7 @@ static void register_nodes() {
 	ClassDB::register_class<SpotLight3D>();
 	ClassDB::register_class<WorldEnvironment>();
 	ClassDB::register_class<SceneTree>();
+	ClassDB::register_abstract_class<ResourceLoader>();
 }
 
 void register_scene_classes() {

@@ -10,7 +10,8 @@
 
 namespace lucent::scene {
 
-class ResourceLoader {
+class ResourceLoader : public Object {
+	LUCENT_CLASS(ResourceLoader, Object)
 public:
 	// A scene becomes a PackedScene, a picture a Texture2D.
 	using Loader = std::function<Result<Ref<Resource>>(const std::string &p_path)>;

@@ -5,7 +5,6 @@
 #include "modules/scene/viewport.h"
 #include "modules/scene/visual_instance_3d.h"
 #include "modules/scene/world_environment.h"
-#include "servers/core/class_builder.h"
 
 #include <algorithm>
 
@@ -35,7 +34,7 @@ SceneTree::~SceneTree() {
 
 void SceneTree::set_current_scene(std::unique_ptr<Node> p_scene) {
 	if (Node *old = get_current_scene()) {
-		root->remove_child(old);
+		ScriptOwned::destroy(root->remove_child(old));
 	}
 	current_scene = {};
 	if (p_scene) {
@@ -75,7 +74,7 @@ void SceneTree::process(double p_delta_seconds) {
 	}
 	for (const ObjectID id : ids) { // any of them may end during another's turn
 		Node *node = static_cast<Node *>(ObjectDB::get(id));
-		if (node && node->get_tree() == this) {
+		if (node && node->get_tree() == this && node->can_process()) {
 			node->notification(Node::NOTIFICATION_PROCESS);
 		}
 	}
@@ -84,7 +83,7 @@ void SceneTree::process(double p_delta_seconds) {
 	for (const ObjectID id : doomed) {
 		Node *node = static_cast<Node *>(ObjectDB::get(id));
 		if (node && node->get_parent()) {
-			node->get_parent()->remove_child(node);
+			ScriptOwned::destroy(node->get_parent()->remove_child(node));
 		}
 	}
 	flush();
@@ -122,15 +121,6 @@ std::vector<Node *> SceneTree::get_nodes_in_group(const std::string &p_group) co
 		}
 	});
 	return nodes;
-}
-
-void SceneTree::call_group(const std::string &p_group, const std::string &p_method, const Array &p_arguments) {
-	for (Node *node : get_nodes_in_group(p_group)) {
-		if (ClassDB::get_method(node->get_class(), p_method)) {
-			const Result<Variant> result = node->call(p_method, p_arguments);
-			ERR_FAIL_COND_MSG(!result, "{}", result.error().message);
-		}
-	}
 }
 
 void SceneTree::node_entered(Node *p_node) {
@@ -185,20 +175,6 @@ void SceneTree::update_environment() {
 		const WorldEnvironment *node = get_world_environment();
 		context->server().scenario_set_environment(scenario, node ? node->get_environment()->get_rid(*context) : EnvironmentRid());
 	}
-}
-
-void SceneTree::bind(ClassBuilder<SceneTree> &r_class) {
-	r_class.doc("The running scene: a root node, its frames, and what the renderer shows of it.");
-	r_class.method("get_root", &SceneTree::get_root).doc("The node above all others.");
-	r_class.method("get_current_scene", &SceneTree::get_current_scene).doc("The root of the scene that runs, or null.");
-	r_class.method("call_group", &SceneTree::call_group, { "group", "method", "arguments" }).doc("Calls a method on every node of a group that has it.");
-	r_class.method("get_node_count", &SceneTree::get_node_count).doc("How many nodes are in the tree, the root included.");
-	r_class.method("get_frame", &SceneTree::get_frame).doc("How many frames have been processed.");
-	const auto node_argument = [] { return std::vector<ArgumentInfo>{ { "node", Variant::Type::OBJECT, "Node" } }; };
-	r_class.signal("node_added", node_argument()).doc("A node entered the tree.");
-	r_class.signal("node_removed", node_argument()).doc("A node left the tree.");
-	r_class.signal("process_frame").doc("A frame begins.");
-	r_class.signal("scene_changed").doc("Another scene runs now.");
 }
 
 } // namespace lucent::scene

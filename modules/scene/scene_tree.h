@@ -23,6 +23,13 @@ public:
 	// Replaces the scene below the root; null leaves none.
 	void set_current_scene(std::unique_ptr<Node> p_scene);
 	Node *get_current_scene() const;
+	// The same for a scene from a script's hands (ScriptOwned); null: an error, and nothing changes.
+	bool set_current_scene_node(Node *p_scene);
+	Status change_scene_to_file(const std::string &p_path);
+	Status change_scene_to_packed(const Ref<Resource> &p_scene);
+	Status reload_current_scene();
+	void set_pause(bool p_paused) { paused = p_paused; } // see Node::ProcessMode
+	bool is_paused() const { return paused; }
 
 	// A frame: process notifications, deletions, then flush().
 	void process(double p_delta_seconds);
@@ -35,6 +42,8 @@ public:
 	std::vector<Node *> get_nodes_in_group(const std::string &p_group) const; // tree order
 	// Nodes that have no such method are left out.
 	void call_group(const std::string &p_group, const std::string &p_method, const Array &p_arguments = {});
+	Status set_group(const std::string &p_group, const std::string &p_property, const Variant &p_value);
+	void notify_group(const std::string &p_group, int p_what);
 	int get_node_count() const { return node_count; }
 	void queue_delete(Node *p_node) { deletions.push_back(p_node->get_instance_id()); }
 
@@ -77,6 +86,7 @@ private:
 	std::vector<GeometryInstance3D *> ranged; // with a visibility range
 	ObjectID current_scene;
 	int node_count = 0;
+	bool paused = false;
 	double process_time = 0.0;
 	uint64_t frame = 0;
 	std::unique_ptr<Node> root;

@@ -2,6 +2,7 @@
 #include "modules/tscn/text_loader.h"
 
 #include "modules/scene/load_report.h"
+#include "modules/tscn/gd_script.h"
 #include "modules/tscn/text_scene.h"
 #include "modules/tscn/uid_index.h"
 #include "servers/core/class_db.h"
@@ -210,8 +211,9 @@ private:
 	Result<Variant> load_external(ExternalResource &r_external) {
 		if (!r_external.loaded) {
 			r_external.loaded = true;
-			if (r_external.type == "Script" || r_external.type == "GDScript" || r_external.type == "CSharpScript") {
-				scene::LoadReport::warning("script", fmt::format("{}:{}: scripts are not run", source, reader.line()));
+			if (r_external.type == "Script" || r_external.type == "GDScript") { // its owner's line says what is lost
+				r_external.resource = make_gd_script(resolve_resource_path(r_external.path, source, path_folder(loading_stack().front())));
+				return Variant(r_external.resource);
 			}
 			if (is_without_effect(r_external)) {
 				return Variant();

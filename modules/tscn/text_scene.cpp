@@ -5,6 +5,7 @@
 #include "modules/scene/node.h"
 #include "modules/scene/node_3d.h"
 #include "modules/scene/sky.h"
+#include "modules/tscn/gd_script.h"
 #include "modules/tscn/mesh_data.h"
 #include "servers/core/class_db.h"
 
@@ -147,7 +148,9 @@ void set_text_property(Object &r_object, const TscnProperty &p_property, const s
 		return;
 	}
 	if (p_property.name == "script") {
-		return; // said where the file is named
+		const Resource *script = dynamic_cast<const Resource *>(p_property.value.get_object());
+		scene::LoadReport::warning(fmt::format("{}|script", place), fmt::format("{}: {}", place, gd_script_notice(r_object, script)));
+		return;
 	}
 	if (!r_object.has_property(p_property.name)) {
 		scene::LoadReport::left_out_property(place, r_object.get_class(), p_property.name);

@@ -11,19 +11,21 @@
 // Types come from the C++ signatures, defaults from a fresh object. doc() and the hints speak of the member added last.
 
 #include "servers/core/class_db.h"
+#include "servers/core/method_types.h"
 
 #include <initializer_list>
 
 namespace lucent {
 
-// One enumerator: { "BG_SKY", BackgroundMode::SKY }.
+// One enumerator: { "BG_SKY", BackgroundMode::SKY, "The sky." }.
 struct EnumEntry {
 	const char *name;
 	int64_t value;
+	const char *documentation;
 
 	template <typename T>
-	EnumEntry(const char *p_name, T p_value) :
-			name(p_name), value(int64_t(p_value)) {}
+	EnumEntry(const char *p_name, T p_value, const char *p_documentation = "") :
+			name(p_name), value(int64_t(p_value)), documentation(p_documentation) {}
 };
 
 template <typename T>
@@ -52,6 +54,15 @@ public:
 					}
 				},
 				[p_get](const Object &p_object) -> std::decay_t<Value> { return (static_cast<const T &>(p_object).*p_get)(); });
+	}
+
+	template <typename Value>
+	ClassBuilder &read_only(const char *p_name, Value (T::*p_get)() const) {
+		add_property<std::decay_t<Value>>(
+				p_name, [](Object &, const std::decay_t<Value> &) { return false; },
+				[p_get](const Object &p_object) -> std::decay_t<Value> { return (static_cast<const T &>(p_object).*p_get)(); });
+		info.properties.back().set = nullptr;
+		return not_stored();
 	}
 
 	// A field of a plain struct that the class keeps as p_state. Setting another value calls state_changed() afterwards.
@@ -102,11 +113,58 @@ public:
 
 	template <typename R, typename C, typename... Arguments>
 	ClassBuilder &method(const char *p_name, R (C::*p_method)(Arguments...), std::initializer_list<const char *> p_argument_names = {}) {
-		return add_method<R, Arguments...>(p_name, p_method, p_argument_names, false);
+		return add_method<R, Arguments...>(
+				p_name, [p_method](T &r_self, auto &&...p_values) -> R { return (r_self.*p_method)(std::forward<decltype(p_values)>(p_values)...); }, p_argument_names, false);
 	}
 	template <typename R, typename C, typename... Arguments>
 	ClassBuilder &method(const char *p_name, R (C::*p_method)(Arguments...) const, std::initializer_list<const char *> p_argument_names = {}) {
-		return add_method<R, Arguments...>(p_name, p_method, p_argument_names, true);
+		return add_method<R, Arguments...>(
+				p_name, [p_method](const T &p_self, auto &&...p_values) -> R { return (p_self.*p_method)(std::forward<decltype(p_values)>(p_values)...); }, p_argument_names, true);
+	}
+	// A free function whose first parameter is the object: where the C++ method isn't what a script should call.
+	template <typename R, typename... Arguments>
+	ClassBuilder &method(const char *p_name, R (*p_function)(T &, Arguments...), std::initializer_list<const char *> p_argument_names = {}) {
+		return add_method<R, Arguments...>(p_name, p_function, p_argument_names, false);
+	}
+	template <typename R, typename... Arguments>
+	ClassBuilder &method(const char *p_name, R (*p_function)(const T &, Arguments...), std::initializer_list<const char *> p_argument_names = {}) {
+		return add_method<R, Arguments...>(p_name, p_function, p_argument_names, true);
+	}
+	// The named arguments, then any number of others, in one Array.
+	ClassBuilder &vararg_method(const char *p_name, Result<Variant> (*p_function)(T &, const Array &), std::vector<ArgumentInfo> p_arguments) {
+		MethodInfo method;
+		method.name = p_name;
+		method.arguments = std::move(p_arguments);
+		method.is_vararg = true;
+		method.call = [p_function](Object *r_object, const Array &p_values) { return p_function(static_cast<T &>(*r_object), p_values); };
+		return add_method_info(std::move(method));
+	}
+	template <typename R, typename... Arguments>
+	ClassBuilder &static_method(const char *p_name, R (*p_function)(Arguments...), std::initializer_list<const char *> p_argument_names = {}) {
+		add_method<R, Arguments...>(
+				p_name, [p_function](T &, auto &&...p_values) -> R { return p_function(std::forward<decltype(p_values)>(p_values)...); }, p_argument_names, false);
+		info.methods.back().is_static = true;
+		return *this;
+	}
+	// What scripts may define and C++ then calls: see ScriptCallback.
+	ClassBuilder &virtual_method(const char *p_name, std::vector<ArgumentInfo> p_arguments = {}) {
+		MethodInfo method;
+		method.name = p_name;
+		method.arguments = std::move(p_arguments);
+		method.is_virtual = true;
+		return add_method_info(std::move(method));
+	}
+	// Of the last arguments of the method added last.
+	ClassBuilder &defaults(std::vector<Variant> p_values) {
+		INVARIANT(p_values.size() <= info.methods.back().arguments.size(), "{}.{}: {} defaults", info.name, info.methods.back().name, p_values.size());
+		info.methods.back().default_arguments = std::move(p_values);
+		return *this;
+	}
+	// Class of an argument (-1: of the result) where the C++ type doesn't tell: "Mesh.PrimitiveType".
+	ClassBuilder &argument_class(int p_index, const std::string &p_class) {
+		MethodInfo &method = info.methods.back();
+		(p_index < 0 ? method.result : method.arguments.at(size_t(p_index))).class_name = p_class;
+		return *this;
 	}
 
 	ClassBuilder &signal(const char *p_name, std::vector<ArgumentInfo> p_arguments = {}) {
@@ -116,7 +174,7 @@ public:
 	}
 	ClassBuilder &enumeration(const char *p_enum, std::initializer_list<EnumEntry> p_entries) {
 		for (const EnumEntry &entry : p_entries) {
-			info.constants.push_back({ entry.name, entry.value, p_enum, "" });
+			info.constants.push_back({ entry.name, entry.value, p_enum, entry.documentation });
 		}
 		return *this;
 	}
@@ -127,29 +185,12 @@ public:
 	}
 
 private:
-	// The class's name for OBJECT types, else empty.
-	template <typename Value>
-	static std::string class_name_of() {
-		if constexpr (is_ref_v<Value>) {
-			return RefTarget<Value>::Type::get_class_static();
-		} else if constexpr (is_object_pointer_v<Value> && !std::is_same_v<Value, const char *>) {
-			return std::remove_cv_t<std::remove_pointer_t<Value>>::get_class_static();
-		} else {
-			return "";
-		}
-	}
-
-	template <typename Value>
-	static Variant::Type type_of() {
-		return std::is_same_v<Value, const char *> ? Variant::Type::STRING : variant_type_of<Value>();
-	}
-
 	template <typename Value, typename Set, typename Get>
 	ClassBuilder &add_property(const char *p_name, Set p_set, Get p_get) {
 		PropertyInfo property;
 		property.name = p_name;
 		property.type = variant_type_of<Value>();
-		property.class_name = class_name_of<Value>();
+		property.class_name = type_info<Value>("").class_name;
 		property.hint = is_ref_v<Value> ? PropertyHint::RESOURCE_TYPE : PropertyHint::NONE;
 		property.setter = std::string("set_") + p_name;
 		property.getter = std::string(std::is_same_v<Value, bool> ? "is_" : "get_") + p_name;
@@ -169,8 +210,8 @@ private:
 		setter.name = p_property.setter;
 		setter.arguments = { { p_property.name, p_property.type, p_property.class_name } };
 		setter.is_accessor = true;
-		setter.call = [name = p_property.name](Object &r_object, const Array &p_arguments) -> Result<Variant> {
-			Status status = r_object.set_property(name, p_arguments[0]);
+		setter.call = [name = p_property.name](Object *r_object, const Array &p_arguments) -> Result<Variant> {
+			Status status = r_object->set_property(name, p_arguments[0]);
 			return status ? Result<Variant>(Variant()) : Result<Variant>(status.error());
 		};
 		MethodInfo getter;
@@ -178,7 +219,7 @@ private:
 		getter.result = { "", p_property.type, p_property.class_name };
 		getter.is_const = true;
 		getter.is_accessor = true;
-		getter.call = [get = p_property.get](Object &r_object, const Array &) -> Result<Variant> { return get(r_object); };
+		getter.call = [get = p_property.get](Object *r_object, const Array &) -> Result<Variant> { return get(*r_object); };
 		info.methods.push_back(std::move(setter));
 		info.methods.push_back(std::move(getter));
 	}
@@ -188,27 +229,18 @@ private:
 		INVARIANT(p_argument_names.size() == sizeof...(Arguments), "{}.{}: {} argument names", info.name, p_name, p_argument_names.size());
 		MethodInfo method;
 		method.name = p_name;
-		method.result = { "", type_of<std::decay_t<R>>(), class_name_of<std::decay_t<R>>() };
+		method.result = type_info<std::decay_t<R>>("");
 		method.is_const = p_const;
-		const std::vector<std::string> names(p_argument_names.begin(), p_argument_names.end());
-		size_t index = 0;
-		((method.arguments.push_back({ names[index], type_of<std::decay_t<Arguments>>(), class_name_of<std::decay_t<Arguments>>() }), index++), ...);
-		method.call = [p_method, full_name = info.name + "." + p_name](Object &r_object, const Array &p_arguments) -> Result<Variant> {
-			return [&]<size_t... I>(std::index_sequence<I...>)->Result<Variant> {
-				const std::tuple<std::optional<std::decay_t<Arguments>>...> values = { variant_cast<std::decay_t<Arguments>>(p_arguments[I])... };
-				if (!(std::get<I>(values).has_value() && ...)) {
-					return make_error("{}(): an argument is of the wrong type", full_name);
-				}
-				T &self = static_cast<T &>(r_object);
-				if constexpr (std::is_void_v<R>) {
-					return (self.*p_method)(*std::get<I>(values)...), Variant();
-				} else {
-					return Variant((self.*p_method)(*std::get<I>(values)...));
-				}
-			}
-			(std::index_sequence_for<Arguments...>());
+		[[maybe_unused]] const auto *name = p_argument_names.begin();
+		(method.arguments.push_back(type_info<std::decay_t<Arguments>>(*name++)), ...);
+		method.call = [p_method, full_name = info.name + "." + p_name, arguments = method.arguments](Object *r_object, const Array &p_arguments) {
+			return call_checked<T, R, std::decay_t<Arguments>...>(p_method, full_name, arguments, r_object, p_arguments);
 		};
-		info.methods.push_back(std::move(method));
+		return add_method_info(std::move(method));
+	}
+
+	ClassBuilder &add_method_info(MethodInfo p_method) {
+		info.methods.push_back(std::move(p_method));
 		documentation = &info.methods.back().documentation;
 		return *this;
 	}

@@ -47,7 +47,7 @@ struct PropertyInfo {
 	std::string setter; // names for documents and Object::call
 	std::string getter;
 	std::string documentation;
-	std::function<bool(Object &, const Variant &)> set; // false: the value does not convert or was rejected
+	std::function<bool(Object &, const Variant &)> set; // empty: read-only. false: the value does not convert or was rejected
 	std::function<Variant(const Object &)> get;
 
 	// As Godot's hint_string: "0,16,0.001,or_greater"; "Linear:0,Filmic:2"; "Texture2D".
@@ -72,10 +72,18 @@ struct MethodInfo {
 	std::string name;
 	std::vector<ArgumentInfo> arguments;
 	ArgumentInfo result; // NIL: void
+	std::vector<Variant> default_arguments; // of the last ones
 	bool is_const = false;
 	bool is_accessor = false; // a property's setter or getter
+	bool is_static = false; // the object is null
+	bool is_virtual = false; // a script's to define: see script_instance.h; call is empty
+	bool is_vararg = false; // any number of arguments may follow
 	std::string documentation;
-	std::function<Result<Variant>(Object &, const Array &)> call;
+	// As many arguments as there are, at least with is_vararg: see checked_call.
+	std::function<Result<Variant>(Object *, const Array &)> call;
+
+	// Fills in defaults and checks the number. The error names class, method, argument and expectation.
+	Result<Variant> checked_call(const std::string &p_class, Object *r_object, const Array &p_arguments) const;
 };
 
 struct SignalInfo {
@@ -154,6 +162,9 @@ private:
 	template <typename T>
 	static void register_type(bool p_instantiable);
 };
+
+// Object::call and scripts say a type so: "float", "Environment.BGMode", "Node[]", "Texture2D".
+std::string type_text(const ArgumentInfo &p_type);
 
 // Object and Resource. Modules call it before their own.
 void register_core_classes();

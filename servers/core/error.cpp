@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "servers/core/error.h"
+#include "servers/core/caller_error.h"
+
+#include <utility>
 
 namespace lucent {
 
@@ -8,7 +10,16 @@ void invariant_failed(const char *p_function, const char *p_file, int p_line, co
 	std::abort();
 }
 
+static CallerErrorHandler caller_error_handler;
+
+CallerErrorHandler set_caller_error_handler(CallerErrorHandler p_handler) {
+	return std::exchange(caller_error_handler, std::move(p_handler));
+}
+
 void report_caller_error(const char *p_function, const char *p_file, int p_line, const std::string &p_message) {
+	if (caller_error_handler && caller_error_handler(p_message)) {
+		return;
+	}
 	log_error("{} ({}:{}): {}", p_function, p_file, p_line, p_message);
 }
 

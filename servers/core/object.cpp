@@ -79,14 +79,19 @@ bool Object::has_property(const std::string &p_name) const {
 }
 
 Result<Variant> Object::call(const std::string &p_method, const Array &p_arguments) {
+	if (script_instance && script_instance->has_method(p_method)) {
+		return script_instance->call(p_method, p_arguments);
+	}
 	const MethodInfo *method = ClassDB::get_method(get_class(), p_method);
-	if (!method) {
+	if (!method || method->is_virtual) {
 		return make_error("{} has no method '{}'", get_class(), p_method);
 	}
-	if (p_arguments.size() != method->arguments.size()) {
-		return make_error("{}.{}() takes {} arguments, got {}", get_class(), p_method, method->arguments.size(), p_arguments.size());
-	}
-	return method->call(*this, p_arguments);
+	return method->checked_call(get_class(), this, p_arguments);
+}
+
+bool Object::has_method(const std::string &p_method) const {
+	const MethodInfo *method = ClassDB::get_method(get_class(), p_method);
+	return (method && !method->is_virtual) || (script_instance && script_instance->has_method(p_method));
 }
 
 ConnectionID Object::connect(const std::string &p_signal, SignalHandler p_handler, const Object *p_target) {
@@ -94,6 +99,88 @@ ConnectionID Object::connect(const std::string &p_signal, SignalHandler p_handle
 	static ConnectionID last_id = 0;
 	connections[p_signal].push_back({ ++last_id, std::move(p_handler), (p_target ? p_target : this)->get_instance_id() });
 	return last_id;
+}
+
+Status Object::connect_callable(const std::string &p_signal, const Callable &p_callable, uint32_t p_flags) {
+	if (!ClassDB::has_signal(get_class(), p_signal)) {
+		return make_error("{} has no signal '{}'", get_class(), p_signal);
+	}
+	if (!p_callable.target) {
+		return make_error("{}.{}: null can't receive a signal", get_class(), p_signal);
+	}
+	if (is_connected(p_signal, p_callable)) {
+		return make_error("{}.{} is already connected to that receiver", get_class(), p_signal);
+	}
+	const ObjectID receiver = p_callable.target->get_object();
+	const auto handler = [target = p_callable.target](const Array &p_arguments) { target->call(p_arguments); };
+	connect(p_signal, handler, receiver.is_valid() ? ObjectDB::get(receiver) : nullptr);
+	connections[p_signal].back().callable = p_callable;
+	connections[p_signal].back().flags = p_flags;
+	return Ok();
+}
+
+Status Object::disconnect_callable(const std::string &p_signal, const Callable &p_callable) {
+	const auto found = connections.find(p_signal);
+	const auto is_it = [&](const Connection &p_entry) {
+		return p_entry.callable.target && p_entry.callable == p_callable;
+	};
+	const size_t erased = found == connections.end() ? 0 : std::erase_if(found->second, is_it);
+	if (erased == 0) {
+		return make_error("{}.{} is not connected to that receiver", get_class(), p_signal);
+	}
+	return Ok();
+}
+
+bool Object::is_connected(const std::string &p_signal, const Callable &p_callable) const {
+	const auto found = connections.find(p_signal);
+	const auto is_it = [&](const Connection &p_entry) {
+		return p_entry.callable.target && p_entry.callable == p_callable && ObjectDB::get(p_entry.target);
+	};
+	return found != connections.end() && std::any_of(found->second.begin(), found->second.end(), is_it);
+}
+
+bool Object::has_connections(const std::string &p_signal) const {
+	const auto found = connections.find(p_signal);
+	const auto lives = [](const Connection &p_entry) { return ObjectDB::get(p_entry.target) != nullptr; };
+	return found != connections.end() && std::any_of(found->second.begin(), found->second.end(), lives);
+}
+
+void Object::visit_callables(const std::function<void(const Callable &)> &p_visit) const {
+	for (const auto &[signal, list] : connections) {
+		for (const Connection &entry : list) {
+			if (entry.callable.target) {
+				p_visit(entry.callable);
+			}
+		}
+	}
+}
+
+void Object::set_meta(const std::string &p_name, const Variant &p_value) {
+	if (p_value.is_nil()) {
+		metadata.erase(p_name); // as in Godot
+	} else {
+		metadata[p_name] = p_value;
+	}
+}
+
+Variant Object::get_meta(const std::string &p_name, const Variant &p_default) const {
+	const auto found = metadata.find(p_name);
+	return found == metadata.end() ? p_default : found->second;
+}
+
+void Object::notify_script(int p_what) {
+	if (script_instance->has_callback(ScriptCallback::NOTIFICATION)) {
+		script_instance->callback(ScriptCallback::NOTIFICATION, p_what);
+	}
+}
+
+Status Object::free() {
+	std::unique_ptr<Object> owned = release_from_owner();
+	if (!owned) {
+		return make_error("{} can't be freed: others own it", get_class());
+	}
+	ScriptOwned::destroy(std::move(owned));
+	return Ok();
 }
 
 void Object::disconnect(ConnectionID p_connection) {
@@ -104,7 +191,7 @@ void Object::disconnect(ConnectionID p_connection) {
 
 void Object::emit_signal(const std::string &p_signal, const Array &p_arguments) {
 	const auto found = connections.find(p_signal);
-	if (found == connections.end()) {
+	if (found == connections.end() || signals_blocked) {
 		return;
 	}
 	std::erase_if(found->second, [](const Connection &p_entry) { return !ObjectDB::get(p_entry.target); });
@@ -118,16 +205,12 @@ void Object::emit_signal(const std::string &p_signal, const Array &p_arguments) 
 		const auto &list = connections[p_signal];
 		const bool still_connected = std::any_of(list.begin(), list.end(), [&](const Connection &p_entry) { return p_entry.id == receiver.id; });
 		if (still_connected && ObjectDB::get(receiver.target)) {
+			if (receiver.flags & CONNECT_ONE_SHOT) {
+				disconnect(receiver.id);
+			}
 			receiver.handler(p_arguments);
 		}
 	}
-}
-
-void Object::bind(ClassBuilder<Object> &r_class) {
-	r_class.doc("Base of everything that the registry knows: properties, methods, signals, notifications and a weak id.");
-	r_class.method("get_class", &Object::get_class).doc("The class's registered name.");
-	r_class.method("is_class", &Object::is_class, { "class" }).doc("Whether this object's class is the given one or inherits it.");
-	r_class.method("notification", &Object::notification, { "what" }).doc("Sends a notification to this object alone.");
 }
 
 void Resource::bind(ClassBuilder<Resource> &r_class) {

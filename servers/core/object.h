@@ -5,6 +5,7 @@
 
 #include "servers/core/error.h"
 #include "servers/core/object_id.h"
+#include "servers/core/script_instance.h"
 #include "servers/core/variant.h"
 #include "servers/core/variant_cast.h"
 
@@ -80,12 +81,50 @@ public:
 
 	Result<Variant> call(const std::string &p_method, const Array &p_arguments = {});
 
+	// Registered, or the script's.
+	bool has_method(const std::string &p_method) const;
+
+	// By path: "position:x", "environment:sky:sky_material".
+	Status set_indexed(const NodePath &p_path, const Variant &p_value);
+	Result<Variant> get_indexed(const NodePath &p_path) const;
+
 	// Signals must be registered. p_target: the connection ends with that object; default: it ends with this one.
 	ConnectionID connect(const std::string &p_signal, SignalHandler p_handler, const Object *p_target = nullptr);
 	void disconnect(ConnectionID p_connection);
 	void emit_signal(const std::string &p_signal, const Array &p_arguments = {});
+	// The same for receivers that can be compared; one receiver has at most one connection to a signal.
+	enum ConnectFlags : uint32_t {
+		CONNECT_ONE_SHOT = 4,
+	};
+	Status connect_callable(const std::string &p_signal, const Callable &p_callable, uint32_t p_flags = 0);
+	Status disconnect_callable(const std::string &p_signal, const Callable &p_callable);
+	bool is_connected(const std::string &p_signal, const Callable &p_callable) const;
+	bool has_connections(const std::string &p_signal) const;
+	// Every receiver that came by connect_callable.
+	void visit_callables(const std::function<void(const Callable &)> &p_visit) const;
+	void set_block_signals(bool p_blocked) { signals_blocked = p_blocked; }
+	bool is_blocking_signals() const { return signals_blocked; }
 
-	void notification(int p_what) { _notification(p_what); }
+	// Facts that people hang onto an object; the program knows none.
+	void set_meta(const std::string &p_name, const Variant &p_value);
+	Variant get_meta(const std::string &p_name, const Variant &p_default = {}) const;
+	bool has_meta(const std::string &p_name) const { return metadata.contains(p_name); }
+	void remove_meta(const std::string &p_name) { metadata.erase(p_name); }
+
+	// The classes hear first, then the script.
+	void notification(int p_what) {
+		_notification(p_what);
+		if (script_instance) {
+			notify_script(p_what);
+		}
+	}
+
+	// Replaces the one that was there.
+	void set_script_instance(std::unique_ptr<ScriptInstance> p_script) { script_instance = std::move(p_script); }
+	ScriptInstance *get_script_instance() const { return script_instance.get(); }
+
+	// Ends the object, out of its parent's hands. Resources are shared: an error.
+	Status free();
 
 	// Properties whose names depend on the object: "surface_material_override/0". False: not one of mine.
 	virtual bool _set(const std::string &, const Variant &) { return false; }
@@ -95,15 +134,24 @@ public:
 protected:
 	// An override calls its base's first, so bases hear first.
 	virtual void _notification(int) {}
+	// Which of the script's callbacks a notification means, beside ScriptCallback::NOTIFICATION.
+	virtual void notify_script(int p_what);
+	// Takes the object from who owns it; null: that can't be.
+	virtual std::unique_ptr<Object> release_from_owner() { return ScriptOwned::take(instance_id); }
 
 private:
 	struct Connection {
 		ConnectionID id = 0;
 		SignalHandler handler;
 		ObjectID target;
+		Callable callable; // null: a handler of C++
+		uint32_t flags = 0;
 	};
 	ObjectID instance_id;
+	bool signals_blocked = false;
+	std::unique_ptr<ScriptInstance> script_instance;
 	std::map<std::string, std::vector<Connection>> connections;
+	std::map<std::string, Variant> metadata;
 };
 
 // Shared data: meshes, materials, textures, environments. Make with std::make_shared or ClassDB::instantiate_resource.

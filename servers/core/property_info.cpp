@@ -95,23 +95,23 @@ Status PropertyInfo::stored_set(Object &r_object, const Variant &p_value, bool &
 }
 
 Status PropertyInfo::set_in_range(Object &r_object, const Variant &p_value) const {
-	const std::string full_name = std::string(r_object.get_class()) + "." + name;
+	const auto full_name = [&] { return std::string(r_object.get_class()) + "." + name; }; // for errors alone: setting is frequent
 	if (!set) {
-		return make_error("{} is read-only", full_name);
+		return make_error("{} is read-only", full_name());
 	}
 	if (!is_finite(p_value)) {
-		return make_error("{} must be finite, got {}", full_name, p_value.to_string());
+		return make_error("{} must be finite, got {}", full_name(), p_value.to_string());
 	}
 	const std::optional<double> number = variant_to_float(p_value);
 	if (hint == PropertyHint::ENUM && number) {
 		const std::vector<ConstantInfo> constants = ClassDB::get_enum_constants(class_name);
 		if (std::none_of(constants.begin(), constants.end(), [&](const ConstantInfo &p_constant) { return double(p_constant.value) == *number; })) {
-			return make_error("{} must be one of {}, got {}", full_name, get_hint_string(), p_value.to_string());
+			return make_error("{} must be one of {}, got {}", full_name(), get_hint_string(), p_value.to_string());
 		}
 	}
 	if (!set(r_object, p_value)) {
 		const std::string expected = hint == PropertyHint::RESOURCE_TYPE ? class_name : Variant::get_type_name(type);
-		return make_error("{} expects {}, got {}", full_name, expected, describe(p_value));
+		return make_error("{} expects {}, got {}", full_name(), expected, describe(p_value));
 	}
 	return Ok();
 }

@@ -73,7 +73,7 @@ bool Variant::operator==(const Variant &p_other) const {
 const char *Variant::get_type_name(Type p_type) {
 	static constexpr const char *NAMES[] = { "Nil", "bool", "int", "float", "String", "Vector2", "Vector2i", "Vector3", "Vector3i", "Vector4", "Quaternion",
 		"Basis", "Transform3D", "AABB", "Color", "NodePath", "Object", "Array", "Dictionary", "PackedByteArray", "PackedInt32Array", "PackedFloat32Array",
-		"PackedVector2Array", "PackedVector3Array", "PackedColorArray", "PackedStringArray" };
+		"PackedVector2Array", "PackedVector3Array", "PackedColorArray", "PackedStringArray", "Callable" };
 	static_assert(std::size(NAMES) == size_t(Type::COUNT) && std::variant_size_v<Storage> == size_t(Type::COUNT));
 	return p_type < Type::COUNT ? NAMES[size_t(p_type)] : "";
 }

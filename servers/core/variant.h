@@ -44,6 +44,21 @@ struct ObjectHandle {
 	bool operator==(const ObjectHandle &) const = default;
 };
 
+// Something to call, as a signal's receiver. Equal ones are one receiver: connecting it twice is an error.
+class CallableTarget {
+public:
+	virtual ~CallableTarget() = default;
+	virtual void call(const std::vector<Variant> &p_arguments) = 0;
+	virtual bool equals(const CallableTarget &p_other) const { return this == &p_other; }
+	virtual ObjectID get_object() const { return {}; } // the connection ends with it; none: with the sender
+};
+
+struct Callable {
+	std::shared_ptr<CallableTarget> target;
+
+	bool operator==(const Callable &p_other) const { return target == p_other.target || (target && p_other.target && target->equals(*p_other.target)); }
+};
+
 class Variant {
 public:
 	// The order is that of Storage.
@@ -74,11 +89,12 @@ public:
 		PACKED_VECTOR3_ARRAY,
 		PACKED_COLOR_ARRAY,
 		PACKED_STRING_ARRAY,
+		CALLABLE,
 		COUNT,
 	};
 	using Storage = std::variant<std::monostate, bool, int64_t, double, std::string, Vector2, Vector2i, Vector3, Vector3i, Vector4, Quaternion, Basis,
 			Transform3D, lucent::AABB, Color, NodePath, ObjectHandle, Array, Dictionary, std::vector<uint8_t>, std::vector<int32_t>, std::vector<float>,
-			std::vector<Vector2>, std::vector<Vector3>, std::vector<Color>, std::vector<std::string>>;
+			std::vector<Vector2>, std::vector<Vector3>, std::vector<Color>, std::vector<std::string>, Callable>;
 
 	Variant() = default;
 	template <std::same_as<bool> T>
@@ -137,6 +153,8 @@ public:
 			storage(std::move(p_value)) {}
 	Variant(std::vector<std::string> p_value) :
 			storage(std::move(p_value)) {}
+	Variant(Callable p_value) :
+			storage(std::move(p_value)) {}
 	// Null becomes an OBJECT that is null. A Resource that a Ref owns is shared, everything else is weak.
 	Variant(Object *p_object);
 	template <typename T>
@@ -154,6 +172,9 @@ public:
 	const T *get_if() const { return std::get_if<T>(&storage); }
 	template <typename T>
 	T *get_if() { return std::get_if<T>(&storage); }
+	// p_visit(value) by its own type.
+	template <typename F>
+	decltype(auto) visit(F &&p_visit) const { return std::visit(std::forward<F>(p_visit), storage); }
 	// The object, or null: not an object, or gone.
 	Object *get_object() const;
 

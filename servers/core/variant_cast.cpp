@@ -98,5 +98,6 @@ template std::optional<std::vector<Vector2>> variant_to_exact(const Variant &);
 template std::optional<std::vector<Vector3>> variant_to_exact(const Variant &);
 template std::optional<std::vector<Color>> variant_to_exact(const Variant &);
 template std::optional<std::vector<std::string>> variant_to_exact(const Variant &);
+template std::optional<Callable> variant_to_exact(const Variant &);
 
 } // namespace lucent

@@ -138,6 +138,7 @@ struct TextWriter {
 		}
 		text += ')';
 	}
+	void operator()(const Callable &p_value) { text += p_value.target ? "<Callable>" : "null"; }
 	template <glm::length_t L, typename T, glm::qualifier Q>
 	void operator()(const glm::vec<L, T, Q> &p_value) { write_call(text, type_name, flatten(std::vector<glm::vec<L, T, Q>>{ p_value })); }
 };

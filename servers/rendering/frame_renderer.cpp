@@ -198,7 +198,7 @@ ShadingBindings FrameRenderer::shading_bindings(const World &p_world, const View
 	SamplerDesc compare = clamped;
 	compare.compare = true;
 	const ShadowMaps &shadows = p_state.shadows;
-	return { p_world.scene.gi_view().lights, p_state.cluster_masks.buffer, shadows.views(), shadows.sun_maps(), shadows.light_maps(), device.sampler(compare), device.sampler(clamped), p_state.sky.irradiance(), p_state.sky.radiance() };
+	return { p_world.scene.gi_view().lights, p_state.cluster_masks.buffer, shadows.views(), shadows.sun_maps(), shadows.light_maps(), device.sampler(compare), device.sampler(clamped), p_state.sky.irradiance(), p_state.sky.radiance(), assets.environment_brdf() };
 }
 
 FrameStats FrameRenderer::stats() const {

@@ -119,12 +119,8 @@ const Environment &find_environment(const RenderScene &p_scene, const Scenario &
 		environment.ambient_source = AmbientSource::DISABLED;
 		return environment;
 	}();
-	for (const EnvironmentRid rid : { p_camera.environment, p_scenario.environment, p_scenario.fallback_environment }) {
-		if (const Environment *environment = p_scene.environments.get(rid)) {
-			return *environment;
-		}
-	}
-	return none;
+	const Environment *environment = p_scene.find_environment(p_scenario, p_camera);
+	return environment != nullptr ? *environment : none;
 }
 
 FrameSetup make_frame_setup(const RenderScene &p_scene, const Viewport &p_viewport, const Scenario &p_scenario, const Camera &p_camera, const GpuScene &p_gpu_scene) {

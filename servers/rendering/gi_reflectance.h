@@ -15,8 +15,4 @@ struct GiReflectance {
 // p_metallic, p_roughness: means over the surface, 0 to 1.
 GiReflectance gi_reflectance(const Material &p_material, float p_metallic, float p_roughness);
 
-// The mean over all incoming directions, by cosine, of what the GGX lobe of brdf_inc.glsl sends on: x f0 + y f90. p_roughness: 0 to 1.
-// A fit by cubics to an integration of 4e5 samples at 20 roughnesses, within 0.013 (x) and 0.002 (y).
-Vector2 specular_reflectance(float p_roughness);
-
 } // namespace lucent

@@ -21,6 +21,7 @@ GpuAssets::GpuAssets(RenderingDevice &p_device) :
 	white_texture = make_pixel(0xFFFFFFFFu, "scene.white");
 	black_texture = make_pixel(0xFF000000u, "scene.black");
 	flat_normal_texture = make_pixel(0xFFFF8080u, "scene.flat_normal");
+	environment_brdf_texture = make_environment_brdf();
 }
 
 void GpuAssets::update(const RenderScene &p_scene) {

@@ -47,6 +47,7 @@ public:
 	// White where p_texture is no texture.
 	TextureHandle texture(TextureRid p_texture) const;
 	TextureHandle black() const { return black_texture; }
+	TextureHandle environment_brdf() const { return environment_brdf_texture; } // BrdfTable, RG16_FLOAT
 
 private:
 	struct GpuSurface {
@@ -74,6 +75,7 @@ private:
 	float mean_of(const Material &p_material, TextureSlot p_slot, float p_factor) const;
 	OwnedTexture make_texture(const SceneTexture &p_texture, const std::string &p_name, Vector4 &r_mean);
 	OwnedTexture make_pixel(uint32_t p_rgba, const char *p_name);
+	OwnedTexture make_environment_brdf();
 
 	RenderingDevice &device;
 	uint64_t update_count = 0;
@@ -84,7 +86,7 @@ private:
 	std::vector<GpuTexture> textures; // by the id's index
 	std::vector<GpuMaterial> materials;
 	std::vector<shader::MaterialData> material_values;
-	OwnedTexture white_texture, black_texture, flat_normal_texture;
+	OwnedTexture white_texture, black_texture, flat_normal_texture, environment_brdf_texture;
 	OwnedTexture gi_array;
 	std::vector<std::pair<TextureRid, uint64_t>> gi_layers; // texture and version by layer
 };

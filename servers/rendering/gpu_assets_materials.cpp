@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "servers/rendering/brdf_table.h"
 #include "servers/rendering/gi_reflectance.h"
 #include "servers/rendering/gpu_assets.h"
 #include "servers/rendering/texture_mips.h"
@@ -67,6 +68,20 @@ uint32_t material_flags(const Material &p_material) {
 OwnedTexture GpuAssets::make_pixel(uint32_t p_rgba, const char *p_name) {
 	OwnedTexture texture = device.create_texture({ .format = Format::RGBA8_UNORM, .name = p_name });
 	device.upload_texture(texture, 0, 0, std::as_bytes(std::span(&p_rgba, 1)));
+	return texture;
+}
+
+OwnedTexture GpuAssets::make_environment_brdf() {
+	std::vector<uint32_t> texels;
+	for (const Vector2 &value : BrdfTable::get().values()) {
+		texels.push_back(glm::packHalf2x16(value));
+	}
+	TextureDesc desc;
+	desc.format = Format::RG16_FLOAT;
+	desc.width = desc.height = BrdfTable::SIZE;
+	desc.name = "scene.environment_brdf";
+	OwnedTexture texture = device.create_texture(desc);
+	device.upload_texture(texture, 0, 0, std::as_bytes(std::span(texels)));
 	return texture;
 }
 

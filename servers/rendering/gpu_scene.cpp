@@ -33,9 +33,9 @@ shader::LightData light_data(const Light &p_light, const Transform3D &p_transfor
 	data.attenuation = p_light.attenuation;
 	data.color = p_light.color * p_light.energy * (p_light.negative ? -1.0f : 1.0f);
 	data.indirect_energy = p_light.indirect_energy;
-	data.specular = p_light.specular;
+	data.specular = p_light.specular_scale();
 	data.spot_cos = std::cos(glm::radians(p_light.spot_angle_degrees));
-	data.spot_attenuation = p_light.spot_attenuation;
+	data.spot_exponent = p_light.spot_exponent();
 	data.angular_radius = glm::radians(p_light.angular_size_degrees);
 	data.size = p_light.size_m;
 	data.shadow_bias = p_light.shadow_bias;
@@ -102,7 +102,7 @@ void GpuScene::collect_instance(const RenderScene &p_scene, const GpuAssets &p_a
 		draw.box = box;
 		scene_draws.push_back(draw);
 		if (p_instance.gi_mode == GiMode::STATIC && draw.drawn) {
-			view.gi_surfaces.push_back({ view.gi_triangle_count, draw.geometry.first_index, draw.geometry.vertex_offset, draw.instance, draw.material });
+			view.gi_surfaces.push_back({ view.gi_triangle_count, view.gi_triangle_count, draw.geometry.first_index, draw.geometry.vertex_offset, draw.instance, draw.material });
 			view.gi_surface_boxes.push_back(box);
 			view.gi_triangle_count += draw.geometry.index_count / 3;
 		}

@@ -5,6 +5,15 @@
 
 namespace lucent {
 
+const Environment *RenderScene::find_environment(const Scenario &p_scenario, const Camera &p_camera) const {
+	for (const EnvironmentRid rid : { p_camera.environment, p_scenario.environment, p_scenario.fallback_environment }) {
+		if (const Environment *environment = environments.get(rid)) {
+			return environment;
+		}
+	}
+	return nullptr;
+}
+
 const Material *RenderScene::surface_material(const Instance &p_instance, const Mesh &p_mesh, uint32_t p_surface) const {
 	if (const Material *material = materials.get(p_instance.material_override)) {
 		return material;

@@ -9,6 +9,8 @@
 #include "servers/core/rid.h"
 #include "servers/rendering/gi/sdfgi/sdfgi_settings.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -151,18 +153,18 @@ enum class SkyMode : uint8_t {
 	SKY_ONLY
 }; // directional lights
 
-// Shines along the instance's -z. Attenuation (Godot): (1 - (d/range)^4)^2 clamped * d^-decay for positional lights; spots are
-// multiplied by 1 - pow(max(1e-3, (1 - cos) / (1 - cos(spot_angle))), spot_attenuation).
+// Shines along the instance's -z. How it fades: shaders/light_falloff_inc.glsl. What shadow_enabled and negative mean to direct and
+// indirect light: doc/conventions.md.
 struct Light {
 	LightType type = LightType::OMNI;
 	Vector3 color{ 1.0f }; // linear
 	float energy = 1.0f;
 	float indirect_energy = 1.0f;
-	float specular = 1.0f;
+	float specular = 1.0f; // see specular_scale()
 	float range_m = 5.0f;
 	float attenuation = 1.0f; // decay exponent
 	float spot_angle_degrees = 45.0f;
-	float spot_attenuation = 1.0f;
+	float spot_attenuation = 1.0f; // Godot's spot_angle_attenuation: the larger, the sharper the cone's middle; see spot_exponent()
 	float angular_size_degrees = 0.0f; // directional
 	float size_m = 0.0f; // positional
 	bool shadow_enabled = false;
@@ -174,6 +176,11 @@ struct Light {
 	LightBakeMode bake_mode = LightBakeMode::DYNAMIC; // DISABLED: not in GI
 	SkyMode sky_mode = SkyMode::LIGHT_AND_SKY;
 	uint64_t version = 0;
+
+	// What multiplies the specular lobe. Godot doubles it for omni and spot lights, whose default is 0.5.
+	float specular_scale() const { return type == LightType::DIRECTIONAL ? specular : 2.0f * specular; }
+	// The rim's exponent is Godot's 1 / spot_angle_attenuation; finite for 0.
+	float spot_exponent() const { return 1.0f / std::max(spot_attenuation, 1e-3f); }
 };
 
 enum class GiMode : uint8_t {
@@ -348,6 +355,13 @@ struct GiStats {
 	uint64_t rays = 0; // most in a frame since the last reset, or with SdfgiSettings::count_every_frame in the last frame; 0 at rest
 	uint64_t surface_cells = 0; // alive, all cascades
 	uint64_t surface_records = 0;
+	uint64_t listed_triangles = 0; // in the cells' lists, one that several cells hold counts several times
+	// The rays of one frame that records gathered light with: met the sky, a record, a record beside the one that was to answer, nothing that
+	// answers, the back of a one-sided surface, a cell without memory. The last three are black.
+	std::array<uint64_t, 6> gather_rays{};
+	// Pixels of a picture without a free point before them, and those that no record lights.
+	uint64_t startless_pixels = 0;
+	uint64_t recordless_pixels = 0;
 	uint64_t probes = 0;
 	uint64_t bytes = 0; // GPU memory of GI
 	std::vector<GiFetches> fetches; // of the last frame, with SdfgiSettings::count_fetches; passes that build the world are not among them
@@ -368,6 +382,8 @@ struct RenderScene {
 
 	// The material that draws surface p_surface of p_instance: override, surface override, the mesh's own, or null (default material).
 	const Material *surface_material(const Instance &p_instance, const Mesh &p_mesh, uint32_t p_surface) const;
+	// The camera's environment, the scenario's, its fallback, or null.
+	const Environment *find_environment(const Scenario &p_scenario, const Camera &p_camera) const;
 };
 
 // The matrices of a camera for an aspect ratio (width / height). Reversed z: near is 1, far is 0; y up in clip space is handled here

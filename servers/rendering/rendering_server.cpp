@@ -107,6 +107,12 @@ RenderingServer::RenderingServer(RenderingDevice *p_device) :
 	}
 }
 
+void RenderingServer::open_device(RenderingDevice &r_device) {
+	ERR_FAIL_COND_MSG(impl->device != nullptr, "the server has a device already");
+	impl->device = &r_device;
+	impl->frame_renderer = std::make_unique<FrameRenderer>(r_device);
+}
+
 RenderingServer::~RenderingServer() = default;
 
 TextureRid RenderingServer::texture_2d_create(std::shared_ptr<const Image> p_image, bool p_srgb) {

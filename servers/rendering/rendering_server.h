@@ -29,6 +29,8 @@ public:
 	// p_device null: scene data only (snapshots, tests); draw() fails.
 	explicit RenderingServer(RenderingDevice *p_device);
 	~RenderingServer();
+	// Gives a server that was made without a device one, so that draw() works; it must have none yet.
+	void open_device(RenderingDevice &r_device);
 	RenderingServer(const RenderingServer &) = delete;
 	RenderingServer &operator=(const RenderingServer &) = delete;
 

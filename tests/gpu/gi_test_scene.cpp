@@ -112,7 +112,7 @@ GiSceneView GiTestScene::upload(const GiTestOrder &p_order) {
 		instance.world_from_local[i][i] = 1.0f;
 	}
 	for (const std::vector<size_t> &triangles : surfaces(p_order)) {
-		view.gi_surfaces.push_back({ .first_triangle = view.gi_triangle_count, .first_index = uint32_t(index_list.size()), .vertex_offset = 0, .instance = 0, .material = triangle_materials[triangles[0]] });
+		view.gi_surfaces.push_back({ .first_triangle = view.gi_triangle_count, .world_triangle = view.gi_triangle_count, .first_index = uint32_t(index_list.size()), .vertex_offset = 0, .instance = 0, .material = triangle_materials[triangles[0]] });
 		AABB box;
 		for (const size_t t : triangles) {
 			for (size_t i = 0; i < 3; i++) {

@@ -51,17 +51,9 @@ struct Folder {
 	size_t count() const { return size_t(std::distance(fs::directory_iterator(path), fs::directory_iterator())); }
 };
 
-// The program beside the test program, of the same build.
-std::string program() {
-	std::string path = fs::read_symlink("/proc/self/exe").string();
-	const size_t at = path.rfind("lucent_tests");
-	REQUIRE(at != std::string::npos);
-	return path.replace(at, std::strlen("lucent_tests"), "lucent");
-}
-
 CommandResult lucent_command(const std::string &p_args) {
 	CommandResult result;
-	const std::string command = "timeout 120 '" + program() + "' " + p_args + " 2>&1 >/dev/null";
+	const std::string command = "timeout 120 '" + test::program() + "' " + p_args + " 2>&1 >/dev/null";
 	FILE *pipe = popen(command.c_str(), "r");
 	REQUIRE(pipe != nullptr);
 	char buffer[4096];

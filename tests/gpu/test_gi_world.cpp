@@ -3,6 +3,7 @@
 #include "servers/rendering/gi/world/gi_world.h"
 #include "tests/gpu/gi_test_scene.h"
 #include "tests/gpu/gpu_fixture.h"
+#include "tests/gpu/shaders/test_io.h"
 
 #include <doctest/doctest.h>
 
@@ -84,6 +85,62 @@ ReadWorld build_and_read(RenderingDevice &p_device, GiWorld &r_world, const GiSc
 	result.sdf = p_device.read_back_buffer<uint8_t>(r_world.sdf_handle());
 	result.origin = r_world.origin_cells(0);
 	return result;
+}
+
+struct ExactHit {
+	double t_m = -1.0; // -1: nothing
+	uint32_t triangle = 0;
+	uint32_t face = 0; // of the front
+	bool from_front = false;
+	bool doubtful = false; // the ray passes within a millimetre of an edge, or two surfaces are as near, or it starts or ends on one
+};
+
+ExactHit meet_exactly(const std::vector<Vector3> &p_corners, const shader::TestRay &p_ray) {
+	ExactHit nearest;
+	const glm::dvec3 o(p_ray.origin_m), d(p_ray.direction);
+	for (size_t i = 0; i + 2 < p_corners.size(); i += 3) {
+		const glm::dvec3 v[3] = { glm::dvec3(p_corners[i]), glm::dvec3(p_corners[i + 1]), glm::dvec3(p_corners[i + 2]) };
+		const glm::dvec3 n = glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
+		const double along = glm::dot(n, d), t = glm::dot(n, v[0] - o) / along;
+		double inside = 1e9;
+		for (int k = 0; k < 3; k++) {
+			inside = std::min(inside, glm::dot(glm::cross(glm::normalize(v[(k + 1) % 3] - v[k]), o + t * d - v[k]), n));
+		}
+		const bool near_plane = std::abs(along) < 0.02 && std::abs(glm::dot(n, v[0] - o)) < 0.1;
+		if (t > -0.01 && inside > -0.001 && (inside < 0.001 || near_plane || t < 0.01 || std::abs(t - 0.5) < 0.01)) {
+			nearest.doubtful = true;
+		}
+		if (t < 0.0 || inside < 0.0) {
+			continue;
+		}
+		nearest.doubtful = nearest.doubtful || (nearest.t_m >= 0.0 && std::abs(t - nearest.t_m) < 0.002);
+		if (nearest.t_m < 0.0 || t < nearest.t_m) {
+			const glm::dvec3 a = glm::abs(n);
+			const uint32_t axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
+			nearest.doubtful = nearest.doubtful || std::abs(a[axis] - a[(axis + 1) % 3]) < 1e-4 || std::abs(a[axis] - a[(axis + 2) % 3]) < 1e-4;
+			nearest.t_m = t;
+			nearest.triangle = uint32_t(i / 3);
+			nearest.face = axis * 2 + (n[int(axis)] < 0.0 ? 1 : 0);
+			nearest.from_front = along < 0.0;
+		}
+	}
+	return nearest;
+}
+
+std::vector<shader::TestHit> trace_rays(RenderingDevice &p_device, GiWorld &r_world, const GiSceneView &p_view, const std::vector<shader::TestRay> &p_rays) {
+	const OwnedBuffer rays = p_device.create_buffer({ .size_bytes = p_rays.size() * sizeof(shader::TestRay), .name = "rays" });
+	const OwnedBuffer hits = p_device.create_buffer({ .size_bytes = p_rays.size() * sizeof(shader::TestHit), .name = "hits" });
+	p_device.upload_buffer(rays, p_rays);
+	PassRecorder &recorder = p_device.begin_frame();
+	r_world.upload_params(recorder);
+	r_world.store_triangles(recorder, p_view);
+	r_world.rebuild_cascade(recorder, p_view, 0);
+	ComputePass pass = recorder.compute("trace_rays", Shader::TEST_RAYS);
+	r_world.bind_light(pass, p_view.sky_octahedral);
+	pass.read(TEST_RAY_SOURCE, rays).write(TEST_RAY_HITS, hits).constants(shader::TestConstants{ .count = uint32_t(p_rays.size()), .value = 0 });
+	pass.dispatch_threads(uint32_t(p_rays.size()));
+	p_device.end_frame();
+	return p_device.read_back_buffer<shader::TestHit>(hits);
 }
 
 template <typename F>
@@ -169,6 +226,51 @@ TEST_SUITE("gpu") {
 		CHECK(solid > 10000);
 		CHECK(missing == 0);
 		CHECK(surplus == 0);
+	}
+
+	// Cells list their triangles, so rays must meet what double precision meets, whatever the bits around it.
+	TEST_CASE("rays and short ways meet the triangles themselves, front and back, and nothing else") {
+		GpuFixture fixture;
+		RenderingDevice &device = fixture.device();
+		GiTestScene scene(device);
+		const uint32_t one_sided = scene.add_material(Vector3(0.5f));
+		const uint32_t double_sided = scene.add_material(Vector3(0.5f), Vector3(0.0f), true);
+		constexpr uint32_t TRIANGLES = 160, RAYS = 8192;
+		std::mt19937 random(11);
+		std::uniform_real_distribution<float> place(-3.0f, 3.0f);
+		std::normal_distribution<float> spread(0.0f, 0.5f);
+		for (uint32_t i = 0; i < TRIANGLES; i++) { // the scene keeps them by material: in this order
+			const Vector3 a(place(random), place(random), place(random));
+			const auto corner = [&]() { return a + Vector3(spread(random), spread(random), spread(random)); };
+			const Vector3 b = corner(), c = corner();
+			scene.add_triangle(a, b, c, i < TRIANGLES / 2 ? one_sided : double_sided);
+		}
+		std::vector<shader::TestRay> rays(RAYS);
+		for (shader::TestRay &ray : rays) {
+			ray.origin_m = Vector3(place(random), place(random), place(random));
+			ray.direction = glm::normalize(Vector3(spread(random), spread(random), spread(random)));
+		}
+		GiWorld world(device, { .cascades = 1, .grid_size = GRID, .min_cell_m = 0.2f, .y_multiplier = 1.5f });
+		world.set_origin_cells(0, Vector3i(-32, -32, -32));
+		const std::vector<shader::TestHit> hits = trace_rays(device, world, scene.upload(), rays);
+		uint32_t judged = 0, met = 0, wrong_way = 0, wrong_face = 0, wrong_free = 0;
+		for (uint32_t i = 0; i < RAYS; i++) {
+			const ExactHit exact = meet_exactly(scene.triangle_corners(), rays[i]);
+			if (exact.doubtful) {
+				continue;
+			}
+			judged++;
+			met += exact.t_m >= 0.0 ? 1 : 0;
+			wrong_way += std::abs(exact.t_m - double(hits[i].t_m)) > 1e-3 ? 1 : 0;
+			const uint32_t front = exact.face, face = exact.from_front ? front : (exact.triangle < TRIANGLES / 2 ? 6u : front ^ 1u);
+			wrong_face += exact.t_m >= 0.0 && hits[i].face != face ? 1 : 0;
+			wrong_free += (hits[i].free_way != 0) != (exact.t_m < 0.0 || exact.t_m > 0.5) ? 1 : 0;
+		}
+		CHECK(judged > RAYS * 9 / 10);
+		CHECK(met > judged / 8); // the scene is no empty one
+		CHECK(wrong_way == 0);
+		CHECK(wrong_face == 0);
+		CHECK(wrong_free == 0);
 	}
 
 	TEST_CASE("the distance field is the distance to the nearest stored cell, rounded down to a sixteenth, up to 15 cells") {

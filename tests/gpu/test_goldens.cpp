@@ -18,14 +18,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The program beside the test program, of the same build.
-std::string program() {
-	std::string path = fs::read_symlink("/proc/self/exe").string();
-	const size_t at = path.rfind("lucent_tests");
-	REQUIRE(at != std::string::npos);
-	return path.replace(at, std::strlen("lucent_tests"), "lucent");
-}
-
 Json read_json(const fs::path &p_path) {
 	std::ifstream file(p_path);
 	return Json::parse(file, nullptr, false);
@@ -36,7 +28,7 @@ Json measure(const Json &p_golden) {
 	std::string folder = (fs::temp_directory_path() / "lucent-golden-XXXXXX").string();
 	REQUIRE(mkdtemp(folder.data()) != nullptr);
 	const Json &settings = p_golden["settings"];
-	std::string command = "timeout 300 '" + program() + "' bench quality --quiet " + p_golden["scene"].get<std::string>() + " --json '" + folder + "/out.json' --size " + settings["size"].get<std::string>() + " --grid " + std::to_string(settings["grid"].get<int>()) + " --frames " + std::to_string(settings["frames"].get<int>());
+	std::string command = "timeout 300 '" + test::program() + "' bench quality --quiet " + p_golden["scene"].get<std::string>() + " --json '" + folder + "/out.json' --size " + settings["size"].get<std::string>() + " --grid " + std::to_string(settings["grid"].get<int>()) + " --frames " + std::to_string(settings["frames"].get<int>());
 	for (const Json &setting : settings["set"]) {
 		command += " --set '" + setting.get<std::string>() + "'";
 	}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "modules/reference/brdf.h"
 #include "servers/rendering/gi_reflectance.h"
+#include "servers/rendering/shaders/brdf.h"
 
 #include <doctest/doctest.h>
 

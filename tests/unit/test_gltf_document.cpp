@@ -242,7 +242,7 @@ TEST_CASE("glTF: lights in candela and lux become Godot's energy, cameras keep t
 	CHECK(spot.spot_angle_degrees == doctest::Approx(34.37747f));
 	// Both cones are at one half where glTF's t^2 is.
 	const float cos_half = std::cos(0.6f) + std::sqrt(0.5f) * (std::cos(0.2f) - std::cos(0.6f));
-	CHECK(1.0f - std::pow((1.0f - cos_half) / (1.0f - std::cos(0.6f)), spot.spot_attenuation) == doctest::Approx(0.5f));
+	CHECK(1.0f - std::pow((1.0f - cos_half) / (1.0f - std::cos(0.6f)), spot.spot_exponent()) == doctest::Approx(0.5f));
 	CHECK(document.cameras[0].camera.fov_degrees == doctest::Approx(57.29578f));
 	CHECK(document.cameras[0].camera.far_m == 50.0f);
 	CHECK(document.cameras[1].camera.size_m == 6.0f);

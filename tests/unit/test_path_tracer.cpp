@@ -111,7 +111,10 @@ TEST_CASE("path tracer: lamps have Godot's units and attenuation") {
 			const double angle = degrees * PI / 180.0;
 			const Vector3 back(float(std::sin(angle)), float(std::cos(angle)), 0);
 			const InstanceRid instance = test.add_light(light, { Basis(Vector3(0, 0, 1), glm::cross(back, Vector3(0, 0, 1)), back), Vector3(0, 1.0f, 0) });
-			const double rim = std::max(1e-3, (1 - std::cos(angle)) / (1 - std::cos(PI / 6)));
+			// Godot's: the exponent is the property's inverse.
+			light.spot_attenuation = degrees == 15.0f ? 0.5f : 1.0f;
+			test.scene.lights.get(test.scene.instances.get(instance)->light)->spot_attenuation = light.spot_attenuation;
+			const double rim = std::pow(std::max(1e-4, (1 - std::cos(angle)) / (1 - std::cos(PI / 6))), 1.0 / light.spot_attenuation);
 			CHECK(estimate(test.render(settings(4))).mean == doctest::Approx(0.5 * 2.0 * std::max(0.0, 1.0 - rim)).epsilon(0.01));
 			test.scene.instances.free(instance);
 		}
@@ -124,7 +127,55 @@ TEST_CASE("path tracer: lamps have Godot's units and attenuation") {
 		light.energy = 0.5f;
 		test.add_light(light, down);
 		check_estimate(test.render(settings(256)), 0.5 * 1.5, 0.05);
+		light.energy = 5.0f;
+		test.add_light(light, down);
+		CHECK(estimate(test.render(settings(4))).mean == 0.0); // no more than there is
 	}
+}
+
+TEST_CASE("path tracer: a lamp without shadows lights what is seen through walls, but no bounce") {
+	TraceTestScene test;
+	const Material white = TraceTestScene::lambertian(Vector3(0.5f));
+	test.add_mesh(TraceTestScene::square(5.0f), white);
+	test.add_mesh(TraceTestScene::square(5.0f), white, TraceTestScene::upside_down(Vector3(0, 3.0f, 0)));
+	test.add_mesh(TraceTestScene::sphere(0.3f, 8), white, { Basis(1.0f), Vector3(0, 2.0f, 0) }); // around the lamp
+	Light light;
+	light.range_m = 100.0f;
+	light.attenuation = 2.0f;
+	light.energy = 2.0f;
+	test.add_light(light, { Basis(1.0f), Vector3(0, 2.0f, 0) });
+	PathTracerSettings run = settings(64);
+	run.aov = true;
+	const PathTracerResult result = test.render(run);
+	for (size_t i = 0; i < result.direct.size(); i++) {
+		CHECK(result.direct[i] == doctest::Approx(0.5 * 2.0 / 4.0).epsilon(0.01));
+		CHECK(result.indirect[i] == 0.0f);
+	}
+}
+
+TEST_CASE("path tracer: a scene far from the origin gives the same picture") {
+	std::vector<float> pictures[2];
+	for (int far = 0; far < 2; far++) {
+		// Floats at 100 km are 1/128 m apart; all places are multiples of it, and the move one of the origin's step.
+		const Vector3 shift = far ? Vector3(102400.0f, -51200.0f, 204800.0f) : Vector3(0.0f);
+		TraceTestScene test;
+		test.set_sky_color(Vector3(0.2f, 0.3f, 0.4f));
+		test.add_mesh(TraceTestScene::square(1.0f), TraceTestScene::lambertian(Vector3(0.5f)), { Basis(1.0f), shift });
+		Material glossy;
+		glossy.roughness = 0.4f;
+		test.add_mesh(TraceTestScene::sphere(0.1f, 8), glossy, { Basis(1.0f), shift + Vector3(0.125f, 0.125f, 0) });
+		Material panel = TraceTestScene::lambertian(Vector3(0.0f));
+		panel.emission = Vector3(4.0f);
+		test.add_mesh(TraceTestScene::square(0.1f), panel, TraceTestScene::upside_down(shift + Vector3(0, 0.375f, 0.25f)));
+		Light light;
+		light.shadow_enabled = true;
+		test.add_light(light, { Basis(1.0f), shift + Vector3(-0.5f, 0.5f, 0) });
+		Camera &camera = *test.scene.cameras.get(test.camera);
+		camera.size_m = 0.5f;
+		camera.transform.origin += shift;
+		pictures[far] = test.render(settings(16, 16)).radiance;
+	}
+	CHECK(pictures[0] == pictures[1]);
 }
 
 TEST_CASE("path tracer: many lamps add up") {

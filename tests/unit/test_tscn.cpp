@@ -141,6 +141,20 @@ metadata/_edit_lock_ = true
 	CHECK(root->get_node_or_null(NodePath("Nowhere/Lost")) == nullptr);
 }
 
+TEST_CASE("tscn: a GDScript is named with its node and what is lost") {
+	const Project project;
+	const LogCapture log;
+	project.file("lamp.gd", "extends Node\nfunc _process(delta):\n\tpass\nfunc _ready():\n\tpass\nfunc helper():\n\tpass\n");
+	build(project.file("lamp.tscn", R"([gd_scene format=3]
+[ext_resource type="Script" path="res://lamp.gd" id="s"]
+[node name="Lamp" type="Node3D"]
+script = ExtResource("s")
+process_priority = 3
+)"));
+	CHECK(log.count("lamp.tscn:4: scripts are not run: 'Lamp' loses _ready, _process of lamp.gd; lucent.attach() in Python can replace it") == 1);
+	CHECK(log.messages.size() == 1);
+}
+
 TEST_CASE("tscn: broken files say file and line") {
 	const Project project;
 	const auto text_failure = [&](const std::string &p_text) { return failure(project.file("bad.tscn", p_text)); };

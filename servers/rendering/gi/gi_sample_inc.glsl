@@ -34,6 +34,8 @@ struct GiSample {
 	vec3 irradiance; // / pi
 	vec3 radiance;
 	float weight; // 0 where GI doesn't reach
+	float from_records; // share of it that surface records answered
+	bool startless; // no free point was found before the surface
 };
 
 struct GiQuery {
@@ -44,20 +46,6 @@ struct GiQuery {
 	vec3 start_m; // the free point that visibility is tested from
 	bool has_start;
 };
-
-// A point just off the surface, in a free sub-voxel. The way to the eye is free, so steps towards it stay on the surface's side.
-void find_query_start(inout GiQuery query, uint cascade) {
-	float along_normal = sub_voxel_along_m(cascade, query.normal);
-	float along_view = sub_voxel_along_m(cascade, query.view);
-	query.has_start = false;
-	for (uint i = 0u; i < 10u && !query.has_start; i++) {
-		// First off the surface, then from there towards the eye, then towards the eye alone.
-		float off = i < 8u ? probe_params.normal_bias : 0.0;
-		float towards = probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u));
-		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
-		query.has_start = !sub_voxel_is_solid(cascade, query.start_m);
-	}
-}
 
 // The 2 x 2 x 2 cells whose centres surround the point in question; ways between its surfaces hardly leave them.
 struct CellFootprint {
@@ -80,7 +68,7 @@ void find_footprint(vec3 position_m, uint cascade) {
 		ivec3 cell = footprint.base + ivec3(int(i & 1u), int((i >> 1) & 1u), int(i >> 2));
 		ivec3 local = cell - world.cascades[cascade].origin_cells;
 		bool inside = all(greaterThanEqual(local, ivec3(0))) && all(lessThan(local, ivec3(int(world.grid_size))));
-		footprint.cells[i] = inside ? load_cell(cascade, cell) : WorldCell(uvec2(0u), 0u);
+		footprint.cells[i] = inside ? load_cell(cascade, cell) : WorldCell(uvec2(0u), 0u, WORLD_NOT_LISTED);
 		all_faces |= footprint.cells[i].records & 63u;
 		all_flat = all_flat && ((footprint.cells[i].bits.x | footprint.cells[i].bits.y) == 0u || (footprint.cells[i].records & WORLD_CELL_FLAT) != 0u);
 	}
@@ -98,6 +86,35 @@ WorldCell cell_on_way(uint cascade, ivec3 cell) {
 	return load_cell(cascade, cell);
 }
 
+// The least distance off a surface, in sub-voxels, that a pixel sees from: more than what its position is rounded by.
+#define NEAR_START_SUB_VOXELS 0.1
+
+// A point just off the surface, in a free sub-voxel. The way to the eye is free, so steps towards it stay on the surface's side; a step along
+// the normal may cross another surface, unless the footprint has one plane only. With `ways`, where the cells know their surfaces, also
+// between solid sub-voxels, nearer and nearer to the surface.
+void find_query_start(inout GiQuery query, uint cascade, const bool ways) {
+	find_footprint(query.position_m, cascade);
+	float along_normal = sub_voxel_along_m(cascade, query.normal);
+	float along_view = sub_voxel_along_m(cascade, query.view);
+	vec3 near_m = query.position_m + query.normal * (NEAR_START_SUB_VOXELS * along_normal);
+	bool is_listed = cell_is_listed(load_cell(cascade, ivec3(floor(near_m / world.cascades[cascade].cell_m))));
+	bool checks = !footprint.is_plain && is_listed;
+	query.has_start = false;
+	uint tries = ways && is_listed ? 14u : 10u;
+	for (uint i = 0u; i < tries && !query.has_start; i++) {
+		// First off the surface, then from there towards the eye, then towards the eye alone, then less and less far off.
+		float off = i < 8u ? probe_params.normal_bias : (i < 10u ? 0.0 : probe_params.normal_bias * exp2(-float(i - 10u)));
+		float towards = i < 10u ? probe_params.probe_bias * (i < 8u ? 0.5 * float(i) : float(i - 7u)) : 0.0;
+		query.start_m = query.position_m + query.normal * (off * along_normal) + query.view * (towards * along_view);
+		bool is_free = i >= 10u || !sub_voxel_is_solid(cascade, query.start_m);
+		query.has_start = is_free && (!checks || short_way_is_free(cascade, near_m, query.start_m));
+	}
+	if (ways && is_listed && !query.has_start) {
+		query.start_m = near_m;
+		query.has_start = true;
+	}
+}
+
 // Records that may answer, by weight; at most this many, the first found.
 #define MAX_CANDIDATES 12u
 
@@ -109,7 +126,6 @@ struct RecordCandidates {
 #define CANDIDATE_SEEN 0x80000000u
 
 RecordCandidates find_candidates(GiQuery query, uint cascade) {
-	find_footprint(query.position_m, cascade);
 	RecordCandidates found;
 	found.count = 0u;
 	vec3 n = query.normal;
@@ -231,7 +247,7 @@ float cascade_fade(uint cascade, vec3 position_m) {
 
 // `rays`: probes are asked with visibility where records don't answer in full; without, false is returned there.
 bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, const bool rays, out GiSample result) {
-	result = GiSample(vec3(0.0), vec3(0.0), 0.0);
+	result = GiSample(vec3(0.0), vec3(0.0), 0.0, 0.0, false);
 	vec3 reflected = reflect(-view, normal);
 	bool glossy = roughness < GI_DIFFUSE_ROUGHNESS;
 	float left = 1.0;
@@ -242,7 +258,10 @@ bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, c
 		if (share <= 0.0) {
 			continue;
 		}
-		find_query_start(query, cascade);
+		find_query_start(query, cascade, rays);
+		if (!query.has_start && !rays) {
+			return false;
+		}
 		vec4 records = sample_records(query, cascade);
 		vec3 irradiance = records.rgb;
 		vec3 radiance = records.rgb;
@@ -264,6 +283,8 @@ bool sample_cascades(vec3 position_m, vec3 normal, vec3 view, float roughness, c
 		result.irradiance += share * irradiance;
 		result.radiance += share * radiance;
 		result.weight += share;
+		result.from_records += share * records.w;
+		result.startless = result.startless || !query.has_start;
 		left -= share;
 	}
 	result.irradiance *= probe_params.energy;

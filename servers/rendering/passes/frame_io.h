@@ -23,6 +23,7 @@
 #define SHADE_LINEAR_SAMPLER 14
 #define SHADE_GI_IRRADIANCE 15
 #define SHADE_GI_RADIANCE 16
+#define SHADE_ENVIRONMENT_BRDF 17
 
 // Roughness that the prepass writes where there is no specular lobe: GI looks up no reflection there.
 #define PREPASS_NO_SPECULAR 2.0

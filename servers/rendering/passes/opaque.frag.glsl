@@ -9,5 +9,5 @@ layout(location = 0) out vec4 out_color;
 void main() {
 	Lighting lighting;
 	Surface s = fragment_surface(lighting);
-	out_color = half_color(lighting.direct + lighting.indirect_diffuse + lighting.indirect_specular + s.emission);
+	out_color = half_color(sent_color(lighting, s));
 }

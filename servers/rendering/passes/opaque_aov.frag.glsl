@@ -15,7 +15,7 @@ layout(location = 5) out vec4 out_albedo;
 void main() {
 	Lighting lighting;
 	Surface s = fragment_surface(lighting);
-	out_color = half_color(lighting.direct + lighting.indirect_diffuse + lighting.indirect_specular + s.emission);
+	out_color = half_color(sent_color(lighting, s));
 	out_direct = half_color(lighting.direct);
 	out_indirect_diffuse = half_color(lighting.indirect_diffuse);
 	out_indirect_specular = half_color(lighting.indirect_specular);

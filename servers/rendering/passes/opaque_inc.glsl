@@ -28,6 +28,11 @@ Surface fragment_surface(out Lighting r_lighting) {
 	return s;
 }
 
+// What a surface sends, which isn't negative, whatever its parts are: negative lamps take no more than there is.
+vec3 sent_color(Lighting lighting, Surface s) {
+	return max(lighting.direct + lighting.indirect_diffuse + lighting.indirect_specular + s.emission, vec3(0.0));
+}
+
 // Half floats end at 65504.
 vec4 half_color(vec3 color) {
 	return vec4(clamp(color, vec3(-65000.0), vec3(65000.0)), 1.0);

@@ -24,6 +24,7 @@ RenderPass &bind_shading(RenderPass &r_pass, const ShadingBindings &p_shading) {
 			.sampler(SHADE_SHADOW_SAMPLER, p_shading.shadow_sampler)
 			.read(SHADE_SKY_IRRADIANCE, p_shading.sky_irradiance)
 			.read(SHADE_SKY_RADIANCE, p_shading.sky_radiance)
+			.read(SHADE_ENVIRONMENT_BRDF, p_shading.environment_brdf)
 			.sampler(SHADE_LINEAR_SAMPLER, p_shading.linear_sampler);
 }
 

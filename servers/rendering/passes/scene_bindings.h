@@ -18,6 +18,7 @@ struct ShadingBindings {
 	TextureHandle sun_shadows, light_shadows;
 	SamplerHandle shadow_sampler, linear_sampler;
 	TextureHandle sky_irradiance, sky_radiance;
+	TextureHandle environment_brdf; // GpuAssets's
 };
 
 RenderPass &bind_geometry(RenderPass &r_pass, const SceneBindings &p_scene);

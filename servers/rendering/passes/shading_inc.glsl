@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The glTF BRDF (Lambert + GGX with Smith's correlated visibility and Schlick's Fresnel; Khronos glTF 2.0, appendix B) under
-// Godot's light units: a light of energy 1 gives albedo * cos, so pi is left out of every term.
+// The light of a surface's pixel: lamps, and GI or ambient light, by the BRDF of brdf_inc.glsl under Godot's units (a light of energy 1
+// gives albedo * cos).
 #ifndef SHADING_INC
 #define SHADING_INC
 #include "servers/rendering/passes/material_inc.glsl"
+#include "servers/rendering/shaders/brdf_inc.glsl"
+#include "servers/rendering/shaders/light_falloff_inc.glsl"
 #include "servers/rendering/shaders/octahedral_inc.glsl"
 
 layout(set = 0, binding = RASTER_FRAME, scalar) uniform Frame { FrameData frame; };
@@ -11,6 +13,7 @@ layout(set = 0, binding = SHADE_LIGHTS, scalar) readonly buffer Lights { LightDa
 layout(set = 0, binding = SHADE_CLUSTERS, scalar) readonly buffer Clusters { uint cluster_masks[]; };
 layout(set = 0, binding = SHADE_SKY_IRRADIANCE) uniform texture2D sky_irradiance;
 layout(set = 0, binding = SHADE_SKY_RADIANCE) uniform texture2DArray sky_radiance;
+layout(set = 0, binding = SHADE_ENVIRONMENT_BRDF) uniform texture2D environment_brdf;
 layout(set = 0, binding = SHADE_LINEAR_SAMPLER) uniform sampler linear_sampler;
 #include "servers/rendering/passes/shadows_inc.glsl"
 
@@ -20,9 +23,7 @@ struct Surface {
 	vec3 geometric_normal;
 	vec3 view; // towards the camera
 	vec3 albedo;
-	vec3 diffuse; // albedo of the Lambertian part
-	vec3 f0;
-	float f90;
+	BrdfLobes lobes;
 	float roughness;
 	float occlusion;
 	vec3 emission;
@@ -47,14 +48,9 @@ Surface make_surface(uint material, MaterialUvs uvs, vec3 albedo, vec3 position,
 	s.geometric_normal = normal * side;
 	s.normal = material_normal(material, uvs, normal, tangent) * side;
 	s.view = frame.views[0].orthogonal != 0u ? frame.views[0].camera_back : normalize(frame.views[0].camera_position - position);
-	float metallic = material_metallic(material, uvs);
-	float specular = materials[material].specular;
 	s.albedo = albedo;
-	s.diffuse = albedo * (1.0 - metallic);
-	s.f0 = mix(min(0.16 * specular * specular * materials[material].specular_tint, vec3(1.0)), albedo, metallic);
-	// Below 2 % reflectance there is no Fresnel edge either (Lagarde, de Rousiers, "Moving Frostbite to PBR" 2014).
-	s.f90 = clamp(dot(s.f0, vec3(50.0 / 3.0)), metallic, 1.0);
 	s.roughness = material_roughness(material, uvs);
+	s.lobes = brdf_lobes(albedo, material_metallic(material, uvs), s.roughness, materials[material].specular, materials[material].specular_tint);
 	s.occlusion = material_occlusion(material, uvs);
 	s.emission = material_emission(material, uvs);
 	return s;
@@ -66,21 +62,7 @@ vec3 reflect_light(Surface s, vec3 to_light, float specular_scale) {
 	if (n_l <= 0.0) {
 		return vec3(0.0);
 	}
-	if (s.f90 <= 0.0) {
-		return s.diffuse * n_l;
-	}
-	vec3 halfway = normalize(s.view + to_light);
-	float n_v = max(dot(s.normal, s.view), 1e-4);
-	float n_h = clamp(dot(s.normal, halfway), 0.0, 1.0);
-	float v_h = clamp(dot(s.view, halfway), 0.0, 1.0);
-	// Below 0.045 the lobe leaves half floats.
-	float alpha = max(s.roughness, 0.045);
-	alpha *= alpha;
-	float a2 = alpha * alpha;
-	float d = a2 / max((n_h * n_h * (a2 - 1.0) + 1.0) * (n_h * n_h * (a2 - 1.0) + 1.0), 1e-12);
-	float visibility = 0.5 / max(n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2), 1e-6);
-	vec3 fresnel = s.f0 + (s.f90 - s.f0) * pow(1.0 - v_h, 5.0);
-	return n_l * ((1.0 - fresnel) * s.diffuse + fresnel * (d * visibility * specular_scale));
+	return (s.lobes.diffuse + brdf_specular(s.lobes, s.normal, s.view, to_light) * (BRDF_PI * specular_scale)) * n_l;
 }
 
 vec3 shade_positional(Surface s, uint index) {
@@ -91,13 +73,9 @@ vec3 shade_positional(Surface s, uint index) {
 		return vec3(0.0);
 	}
 	vec3 to_light = offset / max(distance_m, 1e-6);
-	float ratio = distance_m / light.range;
-	float window = max(1.0 - ratio * ratio * ratio * ratio, 0.0);
-	float attenuation = window * window * pow(max(distance_m, 1e-4), -light.attenuation);
+	float attenuation = light_distance_falloff(distance_m, light.range, light.attenuation);
 	if (light.type == LIGHT_TYPE_SPOT) {
-		float cosine = max(dot(-to_light, light.direction), light.spot_cos);
-		float rim = max(1e-3, (1.0 - cosine) / max(1.0 - light.spot_cos, 1e-6));
-		attenuation *= max(1.0 - pow(rim, light.spot_attenuation), 0.0);
+		attenuation *= light_cone_falloff(dot(-to_light, light.direction), light.spot_cos, light.spot_exponent);
 	}
 	vec3 reflected = reflect_light(s, to_light, light.specular) * attenuation;
 	if (light.shadow_index >= 0 && dot(reflected, vec3(1.0)) > 0.0) {
@@ -132,13 +110,11 @@ vec3 shade_direct(Surface s, vec2 pixel) {
 	return sum;
 }
 
-// The split sum's second factor (Karis, "Physically Based Shading on Mobile", 2014).
-vec3 environment_brdf(Surface s) {
-	float n_v = clamp(dot(s.normal, s.view), 0.0, 1.0);
-	vec4 r = s.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-	float a004 = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
-	vec2 scale_bias = vec2(-1.04, 1.04) * a004 + r.zw;
-	return s.f0 * scale_bias.x + s.f90 * max(scale_bias.y, 0.0);
+// What the specular lobe reflects of light that is the same from all directions.
+vec3 environment_reflectance(Surface s) {
+	vec2 place = clamp(vec2(dot(s.normal, s.view), s.roughness), 0.0, 1.0);
+	vec2 size = vec2(textureSize(environment_brdf, 0));
+	return brdf_environment(s.lobes, textureLod(sampler2D(environment_brdf, linear_sampler), (place * (size - 1.0) + 0.5) / size, 0.0).rg);
 }
 
 vec3 ambient_irradiance(vec3 normal) {
@@ -169,10 +145,9 @@ Lighting shade(Surface s, vec2 pixel, GiLight gi) {
 	if (gi.irradiance.a < 1.0) {
 		irradiance = mix(ambient_irradiance(s.normal), irradiance, gi.irradiance.a);
 	}
-	vec3 reflectance = s.f90 > 0.0 ? environment_brdf(s) : vec3(0.0);
-	result.indirect_diffuse = irradiance * s.diffuse * (1.0 - reflectance) * s.occlusion;
+	result.indirect_diffuse = irradiance * s.lobes.diffuse * s.occlusion;
 	result.indirect_specular = vec3(0.0);
-	if (s.f90 > 0.0) {
+	if (s.lobes.f90 > 0.0) {
 		vec3 radiance = gi.radiance.rgb;
 		if (gi.radiance.a < 1.0) {
 			radiance = mix(ambient_radiance(reflect(-s.view, s.normal), s.roughness), radiance, gi.radiance.a);
@@ -180,7 +155,7 @@ Lighting shade(Surface s, vec2 pixel, GiLight gi) {
 		// Specular occlusion (Lagarde, de Rousiers 2014).
 		float n_v = clamp(dot(s.normal, s.view), 0.0, 1.0);
 		float occlusion = clamp(pow(n_v + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
-		result.indirect_specular = radiance * reflectance * occlusion;
+		result.indirect_specular = radiance * environment_reflectance(s) * occlusion;
 	}
 	return result;
 }

@@ -15,7 +15,7 @@ layout(location = 0) out vec4 out_color;
 GiLight surface_gi(Surface s) {
 #ifdef TRANSPARENT_GI
 	// A surface without a specular lobe asks for no radiance, as in the prepass.
-	GiSample gi = gi_sample(s.position, s.normal, s.view, s.f90 > 0.0 ? s.roughness : GI_NO_SPECULAR);
+	GiSample gi = gi_sample(s.position, s.normal, s.view, s.lobes.f90 > 0.0 ? s.roughness : GI_NO_SPECULAR);
 	float weight = max(gi.weight, 1e-6);
 	return GiLight(vec4(gi.irradiance / weight, gi.weight), vec4(gi.radiance / weight, gi.weight));
 #else
@@ -37,7 +37,7 @@ void main() {
 		Lighting lighting = shade(s, gl_FragCoord.xy, surface_gi(s));
 		color = lighting.direct + lighting.indirect_diffuse + lighting.indirect_specular + s.emission;
 	}
-	out_color = vec4(clamp(color, vec3(-65000.0), vec3(65000.0)), alpha * v_opacity);
+	out_color = vec4(clamp(color, vec3(0.0), vec3(65000.0)), alpha * v_opacity);
 }
 
 #endif

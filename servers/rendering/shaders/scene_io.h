@@ -73,6 +73,7 @@ struct MaterialData {
 // One drawn surface of one instance, as GI's voxelizer walks them: triangle t of all GI triangles belongs to the last surface with first_triangle <= t.
 struct GiSurface {
 	uint first_triangle; // running sum over the list
+	uint world_triangle; // its first in the list of all surfaces
 	uint first_index; // into the index buffer
 	int vertex_offset; // added to each index
 	uint instance;
@@ -85,9 +86,9 @@ struct LightData {
 	float attenuation; // decay exponent
 	vec3 color; // linear * energy; a Lambertian surface reflects albedo * color * cos * attenuation; negative for negative lights
 	float indirect_energy;
-	float specular;
+	float specular; // multiplies the specular lobe
 	float spot_cos; // cos(spot_angle)
-	float spot_attenuation;
+	float spot_exponent; // of light_falloff_inc.glsl
 	float angular_radius; // directional: radians
 	float size; // positional: radius of the source, m
 	float shadow_bias;
@@ -101,6 +102,6 @@ INTEROP_END
 INTEROP_SIZE(InstanceData, 104)
 INTEROP_SIZE(VertexAttributes, 48)
 INTEROP_SIZE(MaterialData, 248)
-INTEROP_SIZE(GiSurface, 20)
+INTEROP_SIZE(GiSurface, 24)
 INTEROP_SIZE(LightData, 92)
 #endif

@@ -7,6 +7,8 @@
 #define TEST_SOURCE 0
 #define TEST_TARGET 1
 #define TEST_SAMPLER 2
+#define TEST_RAY_SOURCE 20
+#define TEST_RAY_HITS 21
 
 INTEROP_BEGIN
 struct TestConstants {
@@ -27,6 +29,15 @@ struct TestStruct {
 	TestInner inner[2];
 	vec2 f;
 	vec4 g[2];
+};
+struct TestRay {
+	vec3 origin_m;
+	vec3 direction; // unit
+};
+struct TestHit {
+	float t_m; // negative: nothing
+	uint face;
+	uint free_way; // the first half metre
 };
 struct TestVertex {
 	vec4 position; // clip space

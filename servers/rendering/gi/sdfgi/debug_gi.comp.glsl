@@ -118,7 +118,7 @@ void main() {
 			GiQuery query = GiQuery(point_m, -direction, -direction, 1.0, point_m, false);
 			uint at = finest_cascade(point_m);
 			if (at < world.cascade_count) {
-				find_query_start(query, at);
+				find_query_start(query, at, true);
 				ProbeSums sums = sample_probes(query, at, direction, false, true);
 				color = vec3(clamp(sums.weight, 0.0, 1.0));
 			}

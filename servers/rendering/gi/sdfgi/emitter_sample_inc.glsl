@@ -109,12 +109,18 @@ EmitterSample resample_emitter(vec3 from_m, vec3 normal, uint index, uint seed) 
 // the surface, and a record's plane is the mean of what its cell holds, so that a flat ray meets neighbours before the point it is meant for.
 bool hit_is_emitter(WorldHit hit, uint target, LightRay ray) {
 	WorldRecord emitter = stored_record(target);
+	bool shows_face = hit.face == record_face(emitter);
 	if (hit.cascade == record_cascade(emitter) && hit.world_cell == record_world_cell(emitter)) {
-		return true;
+		// Points on an emitter are drawn from the cell's columns, beyond its edge too: there another surface of the cell is met. The emitter is
+		// seen if its start is.
+		return shows_face || (hit.face != HIT_BACK && short_way_is_free(hit.cascade, free_point_before(hit, ray.direction), record_start_m(emitter)));
+	}
+	if (hit.face != HIT_BITS && !shows_face) {
+		return false;
 	}
 	vec3 normal = record_normal(emitter);
 	float before_plane_m = (ray.t_max_m - hit.t_m) * -dot(normal, ray.direction);
-	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > float(WORLD_SUB_VOXELS) * sub_voxel_along_m(hit.cascade, normal)) {
+	if (hit.cell >= WORLD_LOST_CELL || before_plane_m > (hit.face == HIT_BITS ? float(WORLD_SUB_VOXELS) : 0.5) * sub_voxel_along_m(hit.cascade, normal)) {
 		return false;
 	}
 	uint packed_records = stored_cell(hit.cell).records;

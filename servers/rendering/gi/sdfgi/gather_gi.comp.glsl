@@ -18,7 +18,7 @@ void main() {
 	uint slot = 0u;
 	if (pixel.x < int(constants.width) && pixel.y < int(constants.height)) {
 		GatherSurface surface;
-		GiSample gi = GiSample(vec3(0.0), vec3(0.0), 0.0);
+		GiSample gi = GiSample(vec3(0.0), vec3(0.0), 0.0, 0.0, false);
 		if (load_surface(pixel, surface)) {
 			needs_rays = reflection_is_traced(surface) || !gi_sample_without_rays(surface.position_m, surface.normal, surface.view, surface.roughness, gi);
 		}
@@ -30,7 +30,7 @@ void main() {
 	}
 	barrier();
 	if (gl_LocalInvocationIndex == 0u) {
-		group_first = atomicAdd(ray_pixel_count, group_count);
+		group_first = atomicAdd(gather_counts.listed, group_count);
 	}
 	barrier();
 	if (needs_rays) {

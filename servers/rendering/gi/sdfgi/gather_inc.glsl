@@ -11,7 +11,7 @@ layout(set = 0, binding = GATHER_NORMAL_ROUGHNESS) uniform texture2D normal_roug
 layout(set = 0, binding = GATHER_IRRADIANCE, rgba16f) uniform writeonly image2D irradiance_out;
 layout(set = 0, binding = GATHER_RADIANCE, rgba16f) uniform writeonly image2D radiance_out;
 layout(set = 0, binding = GATHER_RAY_PIXELS, scalar) buffer RayPixelsBlock {
-	uint ray_pixel_count;
+	GatherCounts gather_counts;
 	uint ray_pixels[]; // x | y << 16
 };
 layout(push_constant, scalar) uniform GatherPush {

@@ -11,7 +11,7 @@ vec3 traced_reflection(vec3 position_m, vec3 normal, vec3 view) {
 		return world_sky_radiance(reflect(-view, normal));
 	}
 	GiQuery query = GiQuery(position_m, normal, view, 0.0, position_m, false);
-	find_query_start(query, cascade);
+	find_query_start(query, cascade, true);
 	vec3 direction = reflect(-view, normal);
 	WorldHit hit = trace_world(query.start_m, direction, 1e6, cascade);
 	return hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);
@@ -28,11 +28,17 @@ void gather_pixel(ivec2 pixel) {
 		gi.radiance = mix(gi.radiance, traced_reflection(surface.position_m, surface.normal, surface.view) * probe_params.energy * gi.weight, traced);
 	}
 	store_gi(pixel, gi);
+	if (gi.startless) {
+		atomicAdd(gather_counts.startless, 1u);
+	}
+	if (gi.weight > 0.0 && gi.from_records == 0.0) {
+		atomicAdd(gather_counts.recordless, 1u);
+	}
 }
 
 void main() {
 	uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-	if (i >= ray_pixel_count) {
+	if (i >= gather_counts.listed) {
 		return;
 	}
 	gather_pixel(ivec2(uvec2(ray_pixels[i], ray_pixels[i] >> 16) & 0xFFFFu));

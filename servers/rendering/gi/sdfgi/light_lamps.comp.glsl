@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One turn of shadow rays from surface records to lamps. The lanes share the lamps out, `slots` being their count rounded up to a power of
+// One turn of shadow rays from surface records to lamps, also to lamps whose shadow_enabled is off: that is the shadow maps'. The lanes share the lamps out, `slots` being their count rounded up to a power of
 // two, so that each turn holds each lamp equally often: none is missing after a change.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "servers/rendering/gi/sdfgi/record_rays_inc.glsl"
+#include "servers/rendering/shaders/light_falloff_inc.glsl"
 #include "servers/rendering/shaders/scene_io.h"
 
 layout(set = 0, binding = LIGHT_LAMPS_LIGHTS, scalar) readonly buffer LightsBlock {
@@ -11,16 +12,9 @@ layout(set = 0, binding = LIGHT_LAMPS_LIGHTS, scalar) readonly buffer LightsBloc
 };
 
 float light_attenuation(LightData light, vec3 to_light, float distance_m) {
-	float window = distance_m / light.range;
-	window = max(1.0 - window * window * window * window, 0.0);
-	float attenuation = window * window * pow(max(distance_m, 1e-4), -light.attenuation);
+	float attenuation = light_distance_falloff(distance_m, light.range, light.attenuation);
 	if (light.type == LIGHT_TYPE_SPOT) {
-		float cosine = dot(-to_light, light.direction);
-		if (cosine <= light.spot_cos) {
-			return 0.0;
-		}
-		float rim = max(1e-4, (1.0 - cosine) / (1.0 - light.spot_cos));
-		attenuation *= 1.0 - pow(rim, light.spot_attenuation);
+		attenuation *= light_cone_falloff(dot(-to_light, light.direction), light.spot_cos, light.spot_exponent);
 	}
 	return attenuation;
 }

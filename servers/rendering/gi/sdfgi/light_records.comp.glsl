@@ -57,8 +57,8 @@ void store(uint index, WorldRecord record, vec3 bounced) {
 		lamps = state[index * 2u + 1u] / float(constants.lamp_turns_done);
 	}
 	uvec4 result;
-	// Lamps may be negative, light isn't.
-	result.xy = half4_from_vec4(vec4(max(still + lamps, vec3(0.0)) * color_from_unorm111110(record.albedo), 1.0));
+	// Negative lamps take no more than the others give: light isn't negative.
+	result.xy = half4_from_vec4(vec4((still + max(lamps, vec3(0.0))) * color_from_unorm111110(record.albedo), 1.0));
 	result.zw = half4_from_vec4(vec4(still, 1.0));
 	new_light[index] = result;
 	vec3 before = light_onto_record(index);

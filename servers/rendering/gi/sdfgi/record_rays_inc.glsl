@@ -76,7 +76,7 @@ struct LightRay {
 WorldHit trace_from_record(LaneOrigin origin, LightRay ray, out float skipped_m) {
 	vec3 from_m = ray_start_m(origin, ray.direction);
 	skipped_m = dot(from_m - origin.surface_m, ray.direction);
-	return trace_world(from_m, ray.direction, ray.t_max_m - skipped_m, origin.cascade);
+	return trace_world(from_m, ray.direction, ray.t_max_m - skipped_m, finest_cascade(from_m));
 }
 
 LaneOrigin lane_origin(WorldRecord record, uint seed, uint sample_index) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 namespace lucent {
 
@@ -67,6 +68,8 @@ struct Sdfgi::Impl {
 	uint32_t lamp_turns_done = 0; // by light_lamps since anything changed
 	bool light_settled = false;
 	bool converged = false; // the probes too
+	bool gathered = false; // in the frame that was last recorded
+	bool picture_counted = false; // of a picture at rest the pixels that lack records
 	uint64_t peak_rays = 0; // in a frame, since anything changed
 	// Of the frame that was last recorded:
 	bool checks_light = false; // its counts are to be read
@@ -88,6 +91,7 @@ struct Sdfgi::Impl {
 	void light_frame(PassRecorder &r_recorder);
 	void restart(bool p_geometry);
 	void read_fetches();
+	void read_gather_counts();
 };
 
 Sdfgi::Sdfgi(RenderingDevice &p_device) :
@@ -167,6 +171,7 @@ void Sdfgi::Impl::restart(bool p_geometry) {
 	lamp_turns_done = 0;
 	turns_done = p_geometry ? 0 : turns_done;
 	light_settled = converged = stats.converged = false;
+	picture_counted = false;
 	peak_rays = 0;
 	stats.frames = 0;
 }
@@ -232,6 +237,7 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	i.world->set_sky_scale(p_settings.read_sky_light ? 1.0f : 0.0f);
 
 	std::vector<uint32_t> stale;
+	const bool triangles_changed = !i.cascades_placed || p_scene.geometry_version != i.geometry_version;
 	i.place_cascades(p_camera_position_m, stale);
 	if (p_scene.geometry_version != i.geometry_version) {
 		stale.clear();
@@ -250,6 +256,11 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	}
 	i.world->upload_params(r_recorder);
 	i.upload_probe_params(r_recorder, p_camera_position_m);
+	if (triangles_changed) {
+		const uint64_t before = i.world->size_bytes();
+		i.world->store_triangles(r_recorder, p_scene);
+		i.stats.bytes += i.world->size_bytes() - before;
+	}
 	for (const uint32_t cascade : stale) {
 		i.world->rebuild_cascade(r_recorder, p_scene, cascade);
 		place_probes(r_recorder, i.pass_inputs(), cascade);
@@ -275,12 +286,25 @@ void Sdfgi::Impl::read_fetches() {
 	}
 }
 
+void Sdfgi::Impl::read_gather_counts() {
+	const std::vector<std::byte> bytes = device.read_back_buffer(ray_pixels, 0, sizeof(shader::GatherCounts));
+	shader::GatherCounts counts;
+	std::memcpy(&counts, bytes.data(), sizeof(counts));
+	stats.startless_pixels = counts.startless;
+	stats.recordless_pixels = counts.recordless;
+	picture_counted = true;
+}
+
 void Sdfgi::after_frame() {
 	Impl &i = *impl;
 	i.stats.fetches.clear();
 	if (i.world != nullptr && i.settings.count_fetches) {
 		i.read_fetches();
 	}
+	if (i.gathered && i.converged && !i.picture_counted) {
+		i.read_gather_counts();
+	}
+	i.gathered = false;
 	if (!i.checks_light || i.world == nullptr) {
 		return;
 	}
@@ -288,11 +312,19 @@ void Sdfgi::after_frame() {
 	const std::vector<shader::CascadeCounts> counts = i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle());
 	i.peak_rays = std::max<uint64_t>(i.peak_rays, statistics[0].rays);
 	i.stats.rays = i.settings.count_every_frame ? statistics[0].rays : i.peak_rays;
+	if (statistics[0].met[GATHER_MET_SKY] + statistics[0].met[GATHER_MET_RECORD] > 0) { // a frame that traced
+		std::copy(std::begin(statistics[0].met), std::end(statistics[0].met), i.stats.gather_rays.begin());
+	}
 	i.stats.surface_cells = 0;
+	i.stats.listed_triangles = 0;
 	i.stats.surface_records = 0;
 	for (uint32_t c = 0; c < i.settings.cascades; c++) {
 		i.stats.surface_cells += counts[c].cells;
 		i.stats.surface_records += counts[c].records;
+		i.stats.listed_triangles += counts[c].triangles;
+		if (counts[c].triangles > i.world->parameters().triangle_capacity) {
+			log_warning_once(fmt::format("sdfgi triangles {}", c), fmt::format("SDFGI cascade {} has {} triangles in its cells' lists, more than its {}: some surfaces are as coarse as their voxels; raise sdfgi_min_cell_size", c, counts[c].triangles, i.world->parameters().triangle_capacity));
+		}
 		if (counts[c].cells > i.world->parameters().cell_capacity || counts[c].records > i.world->parameters().record_capacity) {
 			log_warning_once(fmt::format("sdfgi capacity {}", c), fmt::format("SDFGI cascade {} has {} surface cells and {} records, more than its {} and {}: some surfaces stay black in reflections and bounces; raise sdfgi_min_cell_size", c, counts[c].cells, counts[c].records, i.world->parameters().cell_capacity, i.world->parameters().record_capacity));
 		}
@@ -306,14 +338,15 @@ void Sdfgi::after_frame() {
 }
 
 void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
+	impl->gathered = true;
 	const uint32_t pixels = p_inputs.width * p_inputs.height;
 	if (impl->ray_pixel_capacity < pixels) {
-		impl->ray_pixels = impl->device.create_buffer({ .size_bytes = 4 + uint64_t(pixels) * 4, .name = "sdfgi.ray_pixels" });
+		impl->ray_pixels = impl->device.create_buffer({ .size_bytes = sizeof(shader::GatherCounts) + uint64_t(pixels) * 4, .name = "sdfgi.ray_pixels" });
 		impl->stats.bytes += uint64_t(pixels - impl->ray_pixel_capacity) * 4;
 		impl->ray_pixel_capacity = pixels;
 	}
 	const shader::GatherConstants constants = { .world_from_clip = p_inputs.world_from_clip, .camera_m = p_inputs.camera_position_m, .width = p_inputs.width, .height = p_inputs.height, .view = 0 };
-	const shader::ClearWordsConstants clear = { .first = 0, .count = 1, .value = 0 };
+	const shader::ClearWordsConstants clear = { .first = 0, .count = sizeof(shader::GatherCounts) / 4, .value = 0 };
 	r_recorder.compute("sdfgi.clear_ray_pixels", Shader::CLEAR_WORDS).write(0, impl->ray_pixels).constants(clear).dispatch_groups(1);
 	const auto gather = [&](const char *p_name, Shader p_shader) {
 		ComputePass pass = r_recorder.compute(p_name, p_shader);

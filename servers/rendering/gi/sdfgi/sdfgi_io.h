@@ -33,6 +33,15 @@
 #define LIGHT_LAMPS_LIGHTS 24
 #define LIGHT_RECORDS_OUT 24
 
+// What a gather ray has met
+#define GATHER_MET_SKY 0u
+#define GATHER_MET_RECORD 1u // of the cell that was hit
+#define GATHER_MET_NEIGHBOUR 2u // no record of that cell answers, but one beside it
+#define GATHER_MET_NOTHING 3u // none does: black
+#define GATHER_MET_BACK 4u // of a one-sided surface: black
+#define GATHER_MET_LOST_CELL 5u // without memory: black
+#define GATHER_MET_KINDS 6
+
 #define SETTLED_CHANGE 0.002 // of a record's light in a frame: less counts as none
 
 // gather_gi, gather_rays
@@ -40,7 +49,7 @@
 #define GATHER_NORMAL_ROUGHNESS 21
 #define GATHER_IRRADIANCE 22
 #define GATHER_RADIANCE 23
-#define GATHER_RAY_PIXELS 24
+#define GATHER_RAY_PIXELS 24 // GatherCounts, then pixels
 
 // Bindings of the list of near probes
 #define PROBE_LIST 34
@@ -110,10 +119,17 @@ struct GatherConstants {
 	uint height;
 	uint view; // debug views: DEBUG_VIEW_*
 };
+// Pixels of a picture.
+struct GatherCounts {
+	uint listed; // for gather_rays
+	uint startless; // of these, without a free point before them
+	uint recordless; // that no surface record lights: probes do
+};
 struct SdfgiStatistics {
 	uint rays;
 	uint lit_records; // with any light
 	uint changed_records; // … that moved by more than SETTLED_CHANGE
+	uint met[GATHER_MET_KINDS]; // rays that trace_records gathers light with, by GATHER_MET_*
 };
 INTEROP_END
 INTEROP_SIZE(RecordRaysConstants, 20)

@@ -37,7 +37,7 @@ void trace_ray(uint place, uint ray) {
 	vec3 direction = direction_of_texel(texel, int(across), r2_point(visit % probe_params.average_frames, seed));
 	vec3 origin_m = probe_position_m(constants.cascade, probe, probe_place);
 	atomicAdd(group_rays, 1u);
-	WorldHit hit = trace_world(origin_m, direction, 1e6, constants.cascade);
+	WorldHit hit = trace_world(origin_m, direction, 1e6, finest_cascade(origin_m));
 	vec3 radiance = hit.hit ? hit_radiance(hit, direction) : world_sky_radiance(direction);
 	count_fetch(8u);
 	vec3 mean = imageLoad(radiance_atlas, at).rgb;

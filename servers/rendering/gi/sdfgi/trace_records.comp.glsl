@@ -18,6 +18,21 @@ layout(set = 0, binding = RECORD_RAYS_CACHE, scalar) writeonly buffer RayCacheBl
 
 #include "servers/rendering/gi/sdfgi/emitter_sample_inc.glsl"
 
+shared uint group_met[GATHER_MET_KINDS];
+
+uint kind_of_met(WorldHit hit, uint met) {
+	if (!hit.hit) {
+		return GATHER_MET_SKY;
+	}
+	if (hit.cell >= WORLD_LOST_CELL) {
+		return GATHER_MET_LOST_CELL;
+	}
+	if (met == RAY_MET_NOTHING) {
+		return hit.face == HIT_BACK ? GATHER_MET_BACK : GATHER_MET_NOTHING;
+	}
+	return record_world_cell(stored_record(met)) == hit.world_cell ? GATHER_MET_RECORD : GATHER_MET_NEIGHBOUR;
+}
+
 // What a gather ray meets, and the emission that reaches it from near by.
 uint met_by_ray(WorldHit hit, vec3 direction, float way_m, uint seed, out vec3 emission) {
 	emission = vec3(0.0);
@@ -59,6 +74,7 @@ vec3 light_of_lane(WorldRecord record, uint i, uint lane) {
 	}
 	vec3 light;
 	uint met = met_by_ray(gather_hit, gather.direction, gather.t_max_m, seed ^ hash_uint(sample_index), light);
+	atomicAdd(group_met[kind_of_met(gather_hit, met)], 1u);
 	if (constants.turn < cache.turns) {
 		ray_cache[ray_cache_place(cache, constants.turn, i, lane)] = met;
 	}
@@ -70,5 +86,13 @@ vec3 light_of_lane(WorldRecord record, uint i, uint lane) {
 }
 
 void main() {
+	if (gl_LocalInvocationIndex < GATHER_MET_KINDS) {
+		group_met[gl_LocalInvocationIndex] = 0u;
+	}
+	barrier();
 	trace_lanes(0u, FETCHES_TRACE_RECORDS);
+	barrier();
+	if (gl_LocalInvocationIndex < GATHER_MET_KINDS) {
+		atomicAdd(statistics.met[gl_LocalInvocationIndex], group_met[gl_LocalInvocationIndex]);
+	}
 }

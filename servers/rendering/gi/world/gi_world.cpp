@@ -22,9 +22,16 @@ constexpr uint32_t VOXEL_STRETCHES = 18;
 
 constexpr uint32_t STRETCH_CAPACITY = 131072; // 512 triangles that fill a cascade of 128 cells an axis
 
+// 128 MiB of triangles; cells that others touch keep to their solid bits.
+constexpr uint32_t STORED_TRIANGLES = (128u << 20) / WORLD_TRIANGLE_BYTES;
+
 constexpr uint32_t EMITTER_CAPACITY = 16384;
 constexpr uint32_t STATE_BYTES = 2 * 12; // record_rays_inc.glsl: two vec3 a record
 constexpr uint32_t LIGHT_BYTES = 16;
+
+void bind_materials(ComputePass &r_pass, const GiSceneView &p_scene) {
+	r_pass.read(VOXEL_MATERIALS, p_scene.materials).read(VOXEL_ATTRIBUTES, p_scene.attributes).read(VOXEL_TEXTURES, p_scene.gi_textures).sampler(VOXEL_SAMPLER, p_scene.gi_sampler);
+}
 
 } // namespace
 
@@ -38,6 +45,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	// An eighth of the grid: a room's walls take a tenth at most; doc/sdfgi.md, "Capacity".
 	params.cell_capacity = cell_count / 8;
 	params.record_capacity = cell_count / 6;
+	params.triangle_capacity = cell_count / 2;
 	params.sky_scale = 1.0f;
 	params.hole_margin_cells = 8;
 	for (uint32_t i = 0; i < p_desc.cascades; i++) {
@@ -51,6 +59,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	brick_cell_base = make_buffer("gi_world.brick_cell_base", n * bricks * 4);
 	sdf = make_buffer("gi_world.sdf", n * cell_count);
 	cells = make_buffer("gi_world.cells", n * params.cell_capacity * sizeof(shader::WorldCell));
+	cell_triangles = make_buffer("gi_world.cell_triangles", n * params.triangle_capacity * 4);
 	records = make_buffer("gi_world.records", n * params.record_capacity * sizeof(shader::WorldRecord));
 	record_light[0] = make_buffer("gi_world.record_light0", n * params.record_capacity * LIGHT_BYTES);
 	record_light[1] = make_buffer("gi_world.record_light1", n * params.record_capacity * LIGHT_BYTES);
@@ -65,6 +74,7 @@ GiWorld::GiWorld(RenderingDevice &p_device, const GiWorldDesc &p_desc) :
 	near_bricks[0] = make_buffer("gi_world.near_bricks0", uint64_t(bricks) * 4);
 	near_bricks[1] = make_buffer("gi_world.near_bricks1", uint64_t(bricks) * 4);
 	near_list = make_buffer("gi_world.near_list", sizeof(shader::NearBrickHeader) + uint64_t(bricks) * 4, BUFFER_STORAGE | BUFFER_INDIRECT);
+	world_triangles = device.create_buffer({ .size_bytes = WORLD_TRIANGLE_BYTES, .name = "gi_world.triangles" });
 	surfaces.resize(p_desc.cascades);
 	sky_sampler = device.sampler({ .mip_filter = Filter::NEAREST, .address_u = AddressMode::CLAMP_TO_EDGE, .address_v = AddressMode::CLAMP_TO_EDGE });
 }
@@ -112,13 +122,42 @@ uint32_t GiWorld::cull_surfaces(const GiSceneView &p_scene, uint32_t p_cascade, 
 	return uint32_t(list.size());
 }
 
+// What every pass over triangles reads.
+ComputePass GiWorld::geometry_pass(PassRecorder &r_recorder, const char *p_name, Shader p_shader, const GiSceneView &p_scene, BufferHandle p_surfaces, const shader::VoxelizeConstants &p_constants) {
+	ComputePass pass = r_recorder.compute(p_name, p_shader);
+	pass.uniform(WORLD_PARAMS, params_buffer).read(VOXEL_SURFACES, p_surfaces).read(VOXEL_POSITIONS, p_scene.positions);
+	pass.read(VOXEL_INDICES, p_scene.indices).read(VOXEL_INSTANCES, p_scene.instances).constants(p_constants);
+	return pass;
+}
+
+void GiWorld::store_triangles(PassRecorder &r_recorder, const GiSceneView &p_scene) {
+	const uint64_t room = device.info().max_storage_buffer_bytes / WORLD_TRIANGLE_BYTES;
+	stored_triangles = uint32_t(std::min<uint64_t>({ p_scene.gi_triangle_count, room, STORED_TRIANGLES }));
+	const uint64_t size_bytes = std::max(stored_triangles, 1u) * WORLD_TRIANGLE_BYTES;
+	if (size_bytes > world_triangle_bytes) {
+		world_triangles = device.create_buffer({ .size_bytes = size_bytes, .name = "gi_world.triangles" });
+		world_triangle_bytes = size_bytes;
+	}
+	if (stored_triangles == 0) {
+		return;
+	}
+	all_surfaces = device.create_buffer({ .size_bytes = p_scene.gi_surfaces.size() * sizeof(shader::GiSurface), .name = "gi_world.all_surfaces" });
+	device.upload_buffer(all_surfaces, p_scene.gi_surfaces);
+	const shader::VoxelizeConstants constants = { .cascade = 0, .surface_count = uint32_t(p_scene.gi_surfaces.size()), .triangle_count = p_scene.gi_triangle_count, .stored_triangles = stored_triangles };
+	ComputePass pass = geometry_pass(r_recorder, "gi_world.store_triangles", Shader::STORE_TRIANGLES, p_scene, all_surfaces, constants);
+	bind_materials(pass, p_scene);
+	pass.write(OUT_0, world_triangles);
+	const uint32_t groups = (stored_triangles + 63) / 64;
+	pass.dispatch_groups(std::min(groups, 32768u), (groups + 32767) / 32768);
+}
+
 void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_scene, uint32_t p_cascade) {
 	const uint32_t bricks_axis = world_desc.grid_size / WORLD_BRICK_CELLS;
 	const uint32_t bricks = bricks_axis * bricks_axis * bricks_axis;
-	shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0 };
+	shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0, .stored_triangles = stored_triangles };
 	constants.surface_count = cull_surfaces(p_scene, p_cascade, constants.triangle_count);
 	clear_words(r_recorder, "gi_world.clear_occupancy", occupancy, p_cascade * bricks * 2, bricks * 2);
-	clear_words(r_recorder, "gi_world.clear_cells", cells, p_cascade * params.cell_capacity * 3, params.cell_capacity * 3);
+	clear_words(r_recorder, "gi_world.clear_cells", cells, p_cascade * params.cell_capacity * 4, params.cell_capacity * 4);
 	clear_words(r_recorder, "gi_world.clear_accumulators", accumulators, 0, params.record_capacity * sizeof(shader::RecordAccumulator) / 4);
 
 	clear_words(r_recorder, "gi_world.clear_column_stretches", column_stretches, 0, 1);
@@ -127,20 +166,15 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	const uint32_t triangle_groups = (constants.triangle_count + 63) / 64;
 	const uint32_t groups = triangle_groups > 0 ? triangle_groups + STRETCH_CAPACITY / 64 : 0;
 	const auto dispatch = [](ComputePass p_pass, uint32_t p_groups) { p_pass.dispatch_groups(std::min(p_groups, 32768u), (p_groups + 32767) / 32768); };
-	const auto geometry = [&](const char *p_name, Shader p_shader) {
-		ComputePass pass = r_recorder.compute(p_name, p_shader);
-		pass.uniform(WORLD_PARAMS, params_buffer).read(VOXEL_SURFACES, surfaces[p_cascade]).read(VOXEL_POSITIONS, p_scene.positions).read(VOXEL_INDICES, p_scene.indices).read(VOXEL_INSTANCES, p_scene.instances).constants(constants);
-		return pass;
-	};
 	const auto voxelize = [&](const char *p_name, Shader p_shader) {
-		ComputePass pass = geometry(p_name, p_shader);
-		pass.read(VOXEL_STRETCHES, column_stretches).read(VOXEL_MATERIALS, p_scene.materials).read(VOXEL_ATTRIBUTES, p_scene.attributes).read(VOXEL_TEXTURES, p_scene.gi_textures).sampler(VOXEL_SAMPLER, p_scene.gi_sampler);
-		pass.read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
+		ComputePass pass = geometry_pass(r_recorder, p_name, p_shader, p_scene, surfaces[p_cascade], constants);
+		bind_materials(pass, p_scene);
+		pass.read(VOXEL_STRETCHES, column_stretches).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
 		return pass;
 	};
 	if (groups > 0) {
-		dispatch(geometry("gi_world.list_columns", Shader::LIST_COLUMNS).read_write(VOXEL_STRETCHES, column_stretches), triangle_groups);
-		dispatch(geometry("gi_world.mark_cells", Shader::MARK_CELLS).read(VOXEL_STRETCHES, column_stretches).read_write(WORLD_OCCUPANCY, occupancy), groups);
+		dispatch(geometry_pass(r_recorder, "gi_world.list_columns", Shader::LIST_COLUMNS, p_scene, surfaces[p_cascade], constants).read_write(VOXEL_STRETCHES, column_stretches), triangle_groups);
+		dispatch(geometry_pass(r_recorder, "gi_world.mark_cells", Shader::MARK_CELLS, p_scene, surfaces[p_cascade], constants).read(VOXEL_STRETCHES, column_stretches).read_write(WORLD_OCCUPANCY, occupancy), groups);
 	}
 	r_recorder.compute("gi_world.allocate_cells", Shader::ALLOCATE_CELLS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).write(OUT_0, brick_cell_base).read_write(OUT_1, counts).constants(constants).dispatch_groups(1);
 	if (groups > 0) {
@@ -148,6 +182,9 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 	}
 	r_recorder.compute("gi_world.allocate_records", Shader::ALLOCATE_RECORDS).uniform(WORLD_PARAMS, params_buffer).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base).read_write(OUT_0, counts).read_write(OUT_1, cells).read_write(OUT_2, records).constants(constants).dispatch_groups(1);
 	if (groups > 0) {
+		ComputePass list = geometry_pass(r_recorder, "gi_world.list_triangles", Shader::LIST_TRIANGLES, p_scene, surfaces[p_cascade], constants);
+		list.read(VOXEL_STRETCHES, column_stretches).read(WORLD_OCCUPANCY, occupancy).read(WORLD_BRICK_CELL_BASE, brick_cell_base);
+		dispatch(list.read_write(OUT_0, cells).read_write(OUT_1, cell_triangles), groups);
 		dispatch(voxelize("gi_world.accumulate_records", Shader::ACCUMULATE_RECORDS).read(WORLD_CELLS, cells).read_write(OUT_0, accumulators), groups);
 	}
 	build_sdf(r_recorder, p_cascade);
@@ -161,7 +198,7 @@ void GiWorld::rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_sce
 
 // Rays may pass several cascades, so all must be built.
 void GiWorld::place_record_starts(PassRecorder &r_recorder, uint32_t p_cascade) {
-	const shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0 };
+	const shader::VoxelizeConstants constants = { .cascade = p_cascade, .surface_count = 0, .triangle_count = 0, .stored_triangles = 0 };
 	ComputePass place = r_recorder.compute("gi_world.place_record_starts", Shader::PLACE_RECORD_STARTS);
 	bind_trace(place);
 	place.read(WORLD_RECORDS, records).read(OUT_0, counts).write(OUT_1, accumulators).constants(constants).dispatch_groups(1024);

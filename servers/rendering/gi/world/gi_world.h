@@ -31,6 +31,8 @@ public:
 
 	// Sends the parameters to the device; before any other pass of the frame.
 	void upload_params(PassRecorder &r_recorder);
+	// Keeps the scene's triangles for rays; when geometry has changed, before the cascades are built.
+	void store_triangles(PassRecorder &r_recorder, const GiSceneView &p_scene);
 	// Voxelises a cascade from nothing: cells, bits, records, distance field. The records' light becomes black.
 	void rebuild_cascade(PassRecorder &r_recorder, const GiSceneView &p_scene, uint32_t p_cascade);
 	// Finds the points that a cascade's records light from; after all rebuilds, since it traces rays.
@@ -45,6 +47,7 @@ public:
 	template <typename Pass>
 	void bind_trace(Pass &r_pass, uint32_t p_base = 0) const {
 		r_pass.uniform(p_base + WORLD_PARAMS, params_buffer).read(p_base + WORLD_OCCUPANCY, occupancy).read(p_base + WORLD_BRICK_CELL_BASE, brick_cell_base).read(p_base + WORLD_CELLS, cells).read(p_base + WORLD_SDF, sdf);
+		r_pass.read(p_base + WORLD_CELL_TRIANGLES, cell_triangles).read(p_base + WORLD_TRIANGLES, world_triangles);
 	}
 	template <typename Pass>
 	void bind_light(Pass &r_pass, TextureHandle p_sky, uint32_t p_base = 0) const {
@@ -65,12 +68,13 @@ public:
 	BufferHandle records_handle() const { return records; }
 	const shader::GiWorldParams &parameters() const { return params; }
 	uint32_t record_capacity() const { return params.record_capacity; }
-	uint64_t size_bytes() const { return bytes; }
+	uint64_t size_bytes() const { return bytes + world_triangle_bytes; }
 
 private:
 	OwnedBuffer make_buffer(const char *p_name, uint64_t p_size_bytes, uint32_t p_usage = BUFFER_STORAGE);
 	void clear_words(PassRecorder &r_recorder, const char *p_name, BufferHandle p_buffer, uint32_t p_first, uint32_t p_count, uint32_t p_value = 0);
 	void build_sdf(PassRecorder &r_recorder, uint32_t p_cascade);
+	ComputePass geometry_pass(PassRecorder &r_recorder, const char *p_name, Shader p_shader, const GiSceneView &p_scene, BufferHandle p_surfaces, const shader::VoxelizeConstants &p_constants);
 	uint32_t cull_surfaces(const GiSceneView &p_scene, uint32_t p_cascade, uint32_t &r_triangles);
 
 	RenderingDevice &device;
@@ -83,6 +87,11 @@ private:
 	OwnedBuffer brick_cell_base;
 	OwnedBuffer cells;
 	OwnedBuffer sdf;
+	OwnedBuffer cell_triangles;
+	OwnedBuffer world_triangles;
+	OwnedBuffer all_surfaces;
+	uint64_t world_triangle_bytes = 0;
+	uint32_t stored_triangles = 0;
 	OwnedBuffer records;
 	OwnedBuffer record_light[2];
 	OwnedBuffer record_state;

@@ -19,7 +19,7 @@ layout(set = 0, binding = WORLD_RECORDS, scalar) buffer RecordWordsBlock {
 	uint record_words[]; // WorldRecord as six words
 };
 layout(set = 0, binding = MARK_FLAT_CELLS_WORDS, scalar) buffer CellWordsBlock {
-	uint cell_words[]; // WorldCell as three words
+	uint cell_words[]; // WorldCell as four words
 };
 
 // A record's plane: unit normal times cell size, so that distances of cell-local points from `center` are in metres.
@@ -40,7 +40,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	}
 	MaterialData material = materials[surfaces[triangle.surface].material];
 	uint face = face_from_normal(world_normal_from_cells(constants.cascade, front_normal(triangle, material)));
-	uint packed_records = cell_words[index * 3u + 2u];
+	uint packed_records = cell_words[index * 4u + 2u];
 	uint faces = packed_records & 63u;
 	uint record_index = cell_first_record(packed_records) + uint(bitCount(faces & ((1u << face) - 1u)));
 	bool is_flat = !is_alpha_tested(material) && (faces & (1u << face)) != 0u && record_index < record_end(constants.cascade);
@@ -72,6 +72,6 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 		}
 	}
 	if (!is_flat) {
-		atomicAnd(cell_words[index * 3u + 2u], ~WORLD_CELL_FLAT);
+		atomicAnd(cell_words[index * 4u + 2u], ~WORLD_CELL_FLAT);
 	}
 }

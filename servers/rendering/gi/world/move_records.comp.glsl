@@ -13,7 +13,7 @@ layout(set = 0, binding = MOVE_RECORDS_COUNTS, scalar) readonly buffer CountsBlo
 	CascadeCounts counts[];
 };
 layout(set = 0, binding = MOVE_RECORDS_POSITIONS, scalar) readonly buffer PositionsBlock {
-	uint new_positions[];
+	uvec2 new_places[]; // WorldRecord.position and .area
 };
 layout(set = 0, binding = MOVE_RECORDS_RECORDS, scalar) buffer RecordsBlock {
 	WorldRecord records[];
@@ -26,6 +26,7 @@ void main() {
 	uint count = min(counts[constants.cascade].records, world.record_capacity);
 	uint stride = gl_NumWorkGroups.x * 64u;
 	for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
-		records[record_base(constants.cascade) + i].position = new_positions[i];
+		records[record_base(constants.cascade) + i].position = new_places[i].x;
+		records[record_base(constants.cascade) + i].area = new_places[i].y;
 	}
 }

@@ -23,14 +23,14 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SKY_SAMPLER)) uniform sampler worl
 #ifndef WORLD_CELL_ON_WAY
 #define WORLD_CELL_ON_WAY load_cell
 #endif
-#define SHORT_WAY_MAX_STEPS 48u
+#define SHORT_WAY_MAX_CELLS 10u // three cells along each axis, and the first
 #define TEXEL_LOOKUP_BYTES 32u // bilinear, of RGBA16F
 // What a ray met, instead of a record's index.
 #define RAY_MET_NOTHING 0xFFFFFFFFu
 #define RAY_MET_SKY 0xFFFFFFFEu
 
 // Nothing solid between two points of one cascade at most three cells apart: every sub-voxel on the way is looked up. As for rays, the
-// solid sub-voxels of a flat cell only count where the way crosses a surface.
+// solid sub-voxels of a listed or flat cell only count where the way crosses a surface.
 bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	vec3 scale = float(WORLD_SUB_VOXELS) / world.cascades[cascade].cell_m;
 	vec3 a = from_m * scale;
@@ -41,28 +41,32 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	GridWalk walk;
 	walk.at = ivec3(floor(a));
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), way) - a) * inverse;
-	ivec3 cell_at = ivec3(0x7FFFFFFF);
-	WorldCell cell = WorldCell(uvec2(0u), 0u);
 	float t = 0.0;
-	for (uint i = 0u; i < SHORT_WAY_MAX_STEPS; i++) {
-		ivec3 now = walk.at >> 2;
-		if (now != cell_at) {
-			cell_at = now;
-			cell = WORLD_CELL_ON_WAY(cascade, now);
-		}
-		float t_leave = walk_leaves(walk);
-		uvec3 local = uvec3(walk.at) & 3u;
-		if (bit_is_set(cell.bits, local.x + 4u * local.y + 16u * local.z)) {
-			bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
-			if (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(now), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(now))) {
-				return false;
+	for (uint i = 0u; i < SHORT_WAY_MAX_CELLS; i++) {
+		ivec3 at = walk.at >> 2;
+		WorldCell cell = WORLD_CELL_ON_WAY(cascade, at);
+		bool is_listed = cell_is_listed(cell);
+		bool is_flat = (cell.records & WORLD_CELL_FLAT) != 0u;
+		uint octants = 0u;
+		// Through the cell: at most ten sub-voxels.
+		for (uint k = 0u; k < 12u && t < 1.0 && walk.at >> 2 == at; k++) {
+			float t_leave = walk_leaves(walk);
+			ivec3 local = walk.at & 3;
+			if (bit_is_set(cell.bits, uint(local.x + 4 * local.y + 16 * local.z))) {
+				octants |= octant_of_sub_voxel(local);
+				if (!is_listed && (!is_flat || crosses_surface(cascade, cell.records, (a + way * t) * 0.25 - vec3(at), (a + way * min(t_leave, 1.0)) * 0.25 - vec3(at)))) {
+					return false;
+				}
 			}
+			t = t_leave;
+			walk_on(walk, inverse, direction_sign);
 		}
-		if (t_leave >= 1.0) {
+		if (is_listed && octants != 0u && crosses_triangles(cascade, cell, octants, at, from_m, to_m)) {
+			return false;
+		}
+		if (t >= 1.0) {
 			return true;
 		}
-		t = t_leave;
-		walk_on(walk, inverse, direction_sign);
 	}
 	return false;
 }
@@ -78,9 +82,13 @@ vec3 world_sky_radiance(vec3 direction) {
 	return textureLod(sampler2D(world_sky, world_sky_sampler), uv, 0.0).rgb * world.sky_scale;
 }
 
-// The last free point of the ray before a hit: hits in flat cells may lie under solid sub-voxels. At most back to the ray's start.
+// The last free point of the ray before a hit, at most back to the ray's start: just before a triangle; elsewhere outside of the solid
+// sub-voxels that hits in flat cells may lie under.
 vec3 free_point_before(WorldHit hit, vec3 direction) {
 	float step_m = 0.5 * sub_voxel_along_m(hit.cascade, direction);
+	if (hit.face != HIT_BITS) {
+		return hit.position_m - min(0.1 * step_m, hit.t_m) * direction;
+	}
 	float back_m = min(0.5 * step_m, hit.t_m);
 	for (uint i = 0u; i < 12u && back_m < hit.t_m && sub_voxel_is_solid(hit.cascade, hit.position_m - back_m * direction); i++) {
 		back_m = min(back_m + step_m, hit.t_m);
@@ -88,11 +96,11 @@ vec3 free_point_before(WorldHit hit, vec3 direction) {
 	return hit.position_m - back_m * direction;
 }
 
-// Emission that rays see of a record. They see whole sub-voxels of cells that are not flat: there it is spread over what they see, so that
+// Emission that rays see of a record. They see whole sub-voxels of cells that are neither listed nor flat: there it is spread over what they see, so that
 // the flux stays.
 vec3 visible_emission(WorldRecord record, WorldCell cell) {
 	vec3 emission = color_from_rgb9e5(record.emission);
-	if (record.emission == 0u || (cell.records & WORLD_CELL_FLAT) != 0u) {
+	if (record.emission == 0u || (cell.records & WORLD_CELL_FLAT) != 0u || cell_is_listed(cell)) {
 		return emission;
 	}
 	uint axis = record_face(record) >> 1;
@@ -102,69 +110,138 @@ vec3 visible_emission(WorldRecord record, WorldCell cell) {
 	return emission * (record_area_m2(record) * abs(record_normal(record)[axis]) / seen_m2);
 }
 
-// How much a record has to do with a hit: 0 where it doesn't face the ray, or where no free way leads from `free_m` to it (asked when the
-// cell holds several: some may lie on the other side of a thin wall, or inside of solids that touch).
-float record_weight(WorldHit hit, vec3 direction, WorldRecord record, bool several, vec3 free_m) {
+// Records that may answer for a hit: those of its cell that show the ray the face that it met (where only bits were met: that face it),
+// and that a free way leads to from the ray's last free point, asked when the cell holds several: some may lie on the other side of a
+// thin wall, or inside of solids that touch. Where there is none, those of the cells around it, always by a free way.
+struct HitQuery {
+	WorldHit hit;
+	vec3 direction;
+	vec3 free_m;
+	bool asks_ways;
+	float least_facing;
+};
+
+// How much a record has to do with a hit; 0: nothing.
+float record_weight(HitQuery query, WorldRecord record) {
 	vec3 normal = record_normal(record);
-	float facing = -dot(normal, direction);
-	if (facing <= 0.0 || !record_has_start(record)) {
+	float facing = -dot(normal, query.direction);
+	bool shown = query.hit.face == HIT_BITS ? facing > query.least_facing : query.hit.face == record_face(record);
+	if (!shown || !record_has_start(record)) {
 		return 0.0;
 	}
-	if (several && !short_way_is_free(hit.cascade, free_m, record_start_m(record))) {
+	if (query.asks_ways && !short_way_is_free(query.hit.cascade, query.free_m, record_start_m(record))) {
 		return 0.0;
 	}
-	float off_plane = abs(dot(hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(hit.cascade, normal);
-	return facing / (0.25 + off_plane * off_plane);
+	float off_plane = abs(dot(query.hit.position_m - record_position_m(record), normal)) / sub_voxel_along_m(query.hit.cascade, normal);
+	return max(facing - query.least_facing, 0.05) / (0.25 + off_plane * off_plane);
 }
 
 bool has_several(uint faces) {
 	return (faces & (faces - 1u)) != 0u;
 }
 
-// Radiance that leaves the hit against `direction`: the mean of the records that face the ray and that a free way leads to; black behind
-// one-sided surfaces.
-vec3 hit_radiance(WorldHit hit, vec3 direction) {
-	if (hit.cell >= WORLD_LOST_CELL) {
-		return vec3(0.0);
+// Where neighbours are looked for from: off the met surface, as far as a free way leads, since more can be seen from there.
+vec3 lifted_point(HitQuery query) {
+	vec3 normal = -query.direction;
+	if (query.hit.face != HIT_BITS) {
+		normal = vec3(0.0);
+		normal[query.hit.face >> 1] = (query.hit.face & 1u) == 0u ? 1.0 : -1.0;
 	}
-	WorldCell cell = stored_cell(hit.cell);
-	uint faces = cell.records & 63u;
-	bool several = has_several(faces);
-	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
-	vec3 sum = vec3(0.0);
-	float weight_sum = 0.0;
-	uint end = record_end(hit.cascade);
-	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
-		WorldRecord record = stored_record(index);
-		float weight = record_weight(hit, direction, record, several, free_m);
-		if (weight > 0.0) {
-			sum += weight * (light_from_record(index) + visible_emission(record, cell));
-			weight_sum += weight;
-		}
-	}
-	return weight_sum > 0.0 ? sum / weight_sum : vec3(0.0);
+	vec3 lifted_m = query.free_m + normal * (1.5 * sub_voxel_along_m(query.hit.cascade, normal));
+	return short_way_is_free(query.hit.cascade, query.free_m, lifted_m) ? lifted_m : query.free_m;
 }
 
-// One of the records that hit_radiance takes the mean of, by their weights; RAY_MET_NOTHING: none.
-uint pick_record(WorldHit hit, vec3 direction, uint seed) {
-	uint picked = RAY_MET_NOTHING;
-	if (hit.cell >= WORLD_LOST_CELL) {
-		return picked;
-	}
-	WorldCell cell = stored_cell(hit.cell);
-	uint faces = cell.records & 63u;
-	bool several = has_several(faces);
-	vec3 free_m = several ? free_point_before(hit, direction) : hit.position_m;
-	float weight_sum = 0.0;
-	uint end = record_end(hit.cascade);
-	for (uint index = cell_first_record(cell.records); faces != 0u && index < end; faces &= faces - 1u, index++) {
-		float weight = record_weight(hit, direction, stored_record(index), several, free_m);
+HitQuery neighbour_query(HitQuery query) {
+	query.asks_ways = true;
+	query.free_m = lifted_point(query);
+	query.least_facing = -0.5;
+	return query;
+}
+
+// Those of a cell's faces whose records may answer.
+uint answering_faces(HitQuery query, uint packed_records) {
+	uint faces = packed_records & 63u;
+	return query.hit.face == HIT_BITS ? faces : faces & (1u << query.hit.face);
+}
+
+uint record_of_face(uint packed_records, uint face) {
+	return cell_first_record(packed_records) + uint(bitCount(packed_records & ((1u << face) - 1u)));
+}
+
+// Of 3 x 3 x 3 cells.
+ivec3 neighbour_offset(uint i) {
+	return ivec3(int(i % 3u), int((i / 3u) % 3u), int(i / 9u)) - 1;
+}
+
+// What answers of a cell: one record, drawn by weight; `picked` where there is none.
+uint pick_in_cell(HitQuery query, uint packed_records, uint seed, inout float weight_sum, uint picked) {
+	uint end = record_end(query.hit.cascade);
+	uint faces = answering_faces(query, packed_records);
+	for (uint left = faces; left != 0u; left &= left - 1u) {
+		uint index = record_of_face(packed_records, uint(findLSB(left)));
+		float weight = index < end ? record_weight(query, stored_record(index)) : 0.0;
 		weight_sum += weight;
 		if (weight > 0.0 && unit_float(hash_uint(seed + index)) * weight_sum < weight) {
 			picked = index;
 		}
 	}
 	return picked;
+}
+
+// One record that answers for a hit, RAY_MET_NOTHING: none: the back of a one-sided surface, a cell without memory, or no free way.
+uint pick_record(WorldHit hit, vec3 direction, uint seed) {
+	uint picked = RAY_MET_NOTHING;
+	if (hit.cell >= WORLD_LOST_CELL || hit.face == HIT_BACK) {
+		return picked;
+	}
+	uint packed_records = stored_cell(hit.cell).records;
+	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), has_several(packed_records & 63u), 0.0);
+	float weight_sum = 0.0;
+	picked = pick_in_cell(query, packed_records, seed, weight_sum, picked);
+	if (picked != RAY_MET_NOTHING) {
+		return picked;
+	}
+	query = neighbour_query(query);
+	for (uint i = 0u; i < 27u; i++) {
+		picked = pick_in_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)).records, seed, weight_sum, picked);
+	}
+	return picked;
+}
+
+// Light that leaves a cell's records that answer, by weight, and the sum of the weights.
+vec4 light_of_cell(HitQuery query, WorldCell cell) {
+	vec4 sum = vec4(0.0);
+	uint end = record_end(query.hit.cascade);
+	for (uint left = answering_faces(query, cell.records); left != 0u; left &= left - 1u) {
+		uint index = record_of_face(cell.records, uint(findLSB(left)));
+		if (index >= end) {
+			continue;
+		}
+		WorldRecord record = stored_record(index);
+		float weight = record_weight(query, record);
+		if (weight > 0.0) {
+			sum += weight * vec4(light_from_record(index) + visible_emission(record, cell), 1.0);
+		}
+	}
+	return sum;
+}
+
+// Radiance that leaves the hit against `direction`: the mean of the records that answer; black where none does.
+vec3 hit_radiance(WorldHit hit, vec3 direction) {
+	if (hit.cell >= WORLD_LOST_CELL || hit.face == HIT_BACK) {
+		return vec3(0.0);
+	}
+	WorldCell cell = stored_cell(hit.cell);
+	HitQuery query = HitQuery(hit, direction, free_point_before(hit, direction), has_several(cell.records & 63u), 0.0);
+	vec4 sum = light_of_cell(query, cell);
+	if (sum.w > 0.0) {
+		return sum.rgb / sum.w;
+	}
+	query = neighbour_query(query);
+	for (uint i = 0u; i < 27u; i++) {
+		sum += light_of_cell(query, load_cell(hit.cascade, hit.world_cell + neighbour_offset(i)));
+	}
+	return sum.w > 0.0 ? sum.rgb / sum.w : vec3(0.0);
 }
 
 #endif

@@ -2,11 +2,14 @@
 // Rays through the world: sphere steps by the distance field through empty cells, exact stepping through stored cells and
 // their sub-voxels. Every point of a ray is looked up in the finest cascade that holds it.
 //
-// Solid bits reach up to a sub-voxel beyond the surface. In a flat cell a ray therefore only stops in a solid sub-voxel where it
-// crosses the plane of one of the cell's records, or is behind all of them: openings keep their size.
+// Solid bits reach up to a sub-voxel beyond the surface. They only say where a surface may be: in a cell that lists its triangles (nearly
+// all) a ray that comes through a solid sub-voxel meets the triangles themselves. In other flat cells it stops where it crosses the
+// plane of one of the cell's records, or is behind all of them. Only cells of many triangles that aren't flat are as large as their bits.
 //
 // No leak: triangles set every sub-voxel that they touch, so any path through face-neighbouring sub-voxels that crosses a
-// surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space.
+// surface meets a set bit; the stepping below visits face neighbours only, and sphere steps stay within certified empty space. A cell's
+// list holds every triangle that comes within WORLD_TRIANGLE_GROWTH_CELLS of it, and rays meet triangles that are grown by as much, so that
+// neither rounding nor a crack in a model lets a ray pass between two of them.
 #ifndef TRACE_WORLD_INC
 #define TRACE_WORLD_INC
 #include "servers/rendering/gi/world/world_lookup_inc.glsl"
@@ -27,8 +30,11 @@ struct WorldHit {
 	uint cell; // index, or WORLD_LOST_CELL
 	ivec3 world_cell;
 	float t_m;
-	vec3 position_m; // where the ray enters the solid sub-voxel
+	vec3 position_m; // on a listed triangle; elsewhere where the ray enters the solid sub-voxel
+	uint face; // that a met triangle shows the ray, or HIT_*
 };
+#define HIT_BACK 6u // of a one-sided surface
+#define HIT_BITS 7u // the cell lists no triangles: any of its surfaces may have been met
 
 bool cascade_holds(uint cascade, vec3 position_m) {
 	GiCascade c = world.cascades[cascade];
@@ -111,16 +117,138 @@ bool is_outside(ivec3 at, int size) {
 	return any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, ivec3(size)));
 }
 
-// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in
-// metres to the surface, or a negative number.
-float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max) {
+bool cell_is_listed(WorldCell cell) {
+	return cell.triangles != WORLD_NOT_LISTED;
+}
+
+// Is a point of a triangle's plane inside of it, or no further than `growth` outside of an edge?
+bool is_in_triangle(vec3 a, vec3 b, vec3 c, vec3 n, vec3 p, float growth) {
+	vec3 ab = b - a;
+	vec3 bc = c - b;
+	vec3 ca = a - c;
+	// Distances from the edges, times the edges' lengths.
+	vec3 inside = vec3(dot(cross(ab, p - a), n), dot(cross(bc, p - b), n), dot(cross(ca, p - c), n));
+	return all(greaterThanEqual(inside, -growth * sqrt(vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca)))));
+}
+
+// Where the line o + t * d meets a listed triangle within t's range; negative: it does not. Triangles are larger by `growth` all around.
+// r_along: of d along the normal; r_flags: WORLD_TRIANGLE_*.
+float meet_triangle(uint number, vec3 o, vec3 d, vec2 range, float growth, out float r_along, out uint r_flags) {
+	count_fetch(16u);
+	r_flags = 0u;
+	vec4 plane = world_triangles[number * 4u];
+	r_along = dot(plane.xyz, d);
+	// Far from the origin the plane's distance is rounded: it only tells which triangles are out of the question.
+	float off = plane.w - dot(plane.xyz, o);
+	float slack = growth + 1e-6 * abs(plane.w);
+	vec2 span = r_along * range;
+	if (off < min(span.x, span.y) - slack || off > max(span.x, span.y) + slack || abs(r_along) < 1e-12) {
+		return -1.0;
+	}
+	count_fetch(48u);
+	vec4 first = world_triangles[number * 4u + 1u];
+	vec3 a = first.xyz - o;
+	vec3 b = world_triangles[number * 4u + 2u].xyz - o;
+	vec3 c = world_triangles[number * 4u + 3u].xyz - o;
+	r_flags = floatBitsToUint(first.w);
+	float t = dot(plane.xyz, a) / r_along;
+	return t >= max(range.x, 0.0) && t <= range.y && is_in_triangle(a, b, c, plane.xyz, d * t, growth) ? t : -1.0;
+}
+
+float triangle_growth_m(uint cascade) {
+	return WORLD_TRIANGLE_GROWTH_CELLS * world.cascades[cascade].cell_m.y;
+}
+
+// A point of an alpha-tested triangle counts where its sub-voxel of the cell at `at` (world-fixed) is solid.
+bool is_solid_in_cell(uint cascade, WorldCell cell, ivec3 at, vec3 position_m) {
+	vec3 p = (position_m / world.cascades[cascade].cell_m - vec3(at)) * float(WORLD_SUB_VOXELS);
+	uvec3 s = uvec3(clamp(floor(p), vec3(0.0), vec3(3.0)));
+	return bit_is_set(cell.bits, s.x + 4u * s.y + 16u * s.z);
+}
+
+#define WORLD_TRIANGLE_NUMBER_MASK ((1u << WORLD_TRIANGLE_NUMBER_BITS) - 1u)
+
+// Bit of the octant that a sub-voxel (0..3) lies in.
+uint octant_of_sub_voxel(ivec3 at) {
+	return 1u << uint((at.x >> 1) + 2 * (at.y >> 1) + 4 * (at.z >> 1));
+}
+
+// The nearest of a listed cell's triangles that the ray meets between two ways, of those that touch `octants`; `at` is the cell, world-fixed.
+// Returns the way to it, or a negative number.
+float meet_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 origin_m, vec3 d, vec2 between_m, out uint r_face) {
+	float growth = triangle_growth_m(cascade);
+	uint first = cell.triangles >> 6;
+	uint count = cell.triangles & 63u;
+	float way_m = -1.0;
+	r_face = HIT_BACK;
+	for (uint i = 0u; i < count; i++) {
+		count_fetch(4u);
+		uint listed = world_cell_triangles[first + i];
+		if (((listed >> WORLD_TRIANGLE_NUMBER_BITS) & octants) == 0u) {
+			continue;
+		}
+		uint number = listed & WORLD_TRIANGLE_NUMBER_MASK;
+		float along;
+		uint flags;
+		float t = meet_triangle(number, origin_m, d, between_m, growth, along, flags);
+		if (t < 0.0) {
+			continue;
+		}
+		if ((flags & WORLD_TRIANGLE_ALPHA_TESTED) != 0u && !is_solid_in_cell(cascade, cell, at, origin_m + d * t)) {
+			continue;
+		}
+		uint front = flags & WORLD_TRIANGLE_FACE;
+		uint face = along < 0.0 ? front : ((flags & WORLD_TRIANGLE_DOUBLE_SIDED) != 0u ? front ^ 1u : HIT_BACK);
+		// Of equally near ones the lowest face: neither the list's order nor the triangles' matters.
+		r_face = t == way_m ? min(r_face, face) : face;
+		between_m.y = t;
+		way_m = t;
+	}
+	return way_m;
+}
+
+// Does the stretch from `from_m` to `to_m` cross any of a listed cell's triangles that touch `octants`?
+bool crosses_triangles(uint cascade, WorldCell cell, uint octants, ivec3 at, vec3 from_m, vec3 to_m) {
+	float growth = triangle_growth_m(cascade);
+	uint first = cell.triangles >> 6;
+	uint count = cell.triangles & 63u;
+	bool crosses = false;
+	for (uint i = 0u; i < count && !crosses; i++) {
+		count_fetch(4u);
+		uint listed = world_cell_triangles[first + i];
+		if (((listed >> WORLD_TRIANGLE_NUMBER_BITS) & octants) == 0u) {
+			continue;
+		}
+		float along;
+		uint flags;
+		float t = meet_triangle(listed & WORLD_TRIANGLE_NUMBER_MASK, from_m, to_m - from_m, vec2(0.0, 1.0), growth, along, flags);
+		crosses = t >= 0.0 && ((flags & WORLD_TRIANGLE_ALPHA_TESTED) == 0u || is_solid_in_cell(cascade, cell, at, mix(from_m, to_m, t)));
+	}
+	return crosses;
+}
+
+// Steps through a cell's sub-voxels from `entry` (cell-local, in sub-voxels, 0..4). `rate`: sub-voxels per metre. Returns the way in metres to
+// the first solid one, in a flat cell that isn't listed to the surface, or a negative number. r_octants: in a listed cell those of all solid
+// sub-voxels on the way.
+float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3 inverse_rate, float t_max, out uint r_octants) {
 	ivec3 direction_sign = ivec3(sign(rate));
 	GridWalk walk;
 	walk.at = clamp(ivec3(floor(entry)), ivec3(0), ivec3(3));
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), rate) - entry) * inverse_rate;
-	bool flat_cell = (cell.records & WORLD_CELL_FLAT) != 0u;
-	float t = 0.0;
+	r_octants = 0u;
 	bool inside = true;
+	if (cell_is_listed(cell)) {
+		for (uint i = 0u; i < 12u && inside; i++) {
+			bool solid = bit_is_set(cell.bits, uint(walk.at.x + 4 * walk.at.y + 16 * walk.at.z));
+			r_octants |= solid ? octant_of_sub_voxel(walk.at) : 0u;
+			inside = walk_leaves(walk) <= t_max;
+			walk_on(walk, inverse_rate, direction_sign);
+			inside = inside && !is_outside(walk.at, 4);
+		}
+		return r_octants != 0u ? 0.0 : -1.0;
+	}
+	bool by_planes = (cell.records & WORLD_CELL_FLAT) != 0u;
+	float t = 0.0;
 	for (uint tests = 0u; tests < 12u && inside; tests++) {
 		bool solid = false;
 		for (uint i = 0u; i < 12u && inside && !solid; i++) {
@@ -135,7 +263,7 @@ float trace_sub_voxels(uint cascade, WorldCell cell, vec3 entry, vec3 rate, vec3
 			break;
 		}
 		float t_leave = walk_leaves(walk);
-		if (!flat_cell || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
+		if (!by_planes || crosses_surface(cascade, cell.records, (entry + rate * t) * 0.25, (entry + rate * t_leave) * 0.25)) {
 			return t;
 		}
 		t = t_leave;
@@ -167,6 +295,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 	result.cascade = first_cascade;
 	result.world_cell = ivec3(0);
 	result.position_m = origin_m;
+	result.face = HIT_BITS;
 	// No zero components: every division below is finite.
 	vec3 d = mix(direction, vec3(1e-7), lessThan(abs(direction), vec3(1e-7)));
 	vec3 inverse_direction = 1.0 / d;
@@ -227,9 +356,19 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 			uint index = find_cell(cascade, storage_from_world_cell(walk.at + c.origin_cells));
 			if (index < WORLD_LOST_CELL) {
 				vec3 entry = (o + rate * t - vec3(walk.at)) * float(WORLD_SUB_VOXELS);
-				float way = trace_sub_voxels(cascade, stored_cell(index), entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t);
+				WorldCell cell = stored_cell(index);
+				uint octants;
+				float way = trace_sub_voxels(cascade, cell, entry, rate * float(WORLD_SUB_VOXELS), inverse_rate / float(WORLD_SUB_VOXELS), t_end - t, octants);
 				result.hit = way >= 0.0;
 				result.t_m = t + way;
+				result.face = HIT_BITS;
+				if (result.hit && cell_is_listed(cell)) {
+					// As far beyond the cell as its list reaches.
+					float growth = triangle_growth_m(cascade);
+					vec2 between_m = vec2(t - growth, min(walk_leaves(walk) + growth, t_max_m));
+					result.t_m = meet_triangles(cascade, cell, octants, walk.at + c.origin_cells, origin_m, d, between_m, result.face);
+					result.hit = result.t_m >= 0.0;
+				}
 			} else if (index == WORLD_LOST_CELL) {
 				result.hit = true;
 				result.t_m = t;

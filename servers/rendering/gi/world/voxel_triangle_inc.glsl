@@ -35,6 +35,7 @@ struct VoxelTriangle {
 	vec3 v[3]; // cells, from the cascade's origin
 	uint surface;
 	uvec3 vertex; // indices of its vertices
+	uint world_triangle; // in the list of all surfaces
 };
 
 // Does a triangle touch the box [low, low + size]? Schwarz and Seidel, "Fast Parallel Surface and Solid Voxelization on GPUs", 2010.
@@ -120,6 +121,7 @@ VoxelTriangle load_triangle(uint triangle) {
 	result.surface = find_surface(triangle);
 	GiSurface surface = surfaces[result.surface];
 	uint first = surface.first_index + (triangle - surface.first_triangle) * 3u;
+	result.world_triangle = surface.world_triangle + triangle - surface.first_triangle;
 	GiCascade c = world.cascades[constants.cascade];
 	for (uint i = 0u; i < 3u; i++) {
 		result.vertex[i] = uint(int(indices[first + i]) + surface.vertex_offset);

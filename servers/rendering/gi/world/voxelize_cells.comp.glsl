@@ -14,7 +14,7 @@ layout(set = 0, binding = WORLD_BRICK_CELL_BASE, scalar) readonly buffer BrickCe
 	uint brick_cell_base[];
 };
 layout(set = 0, binding = VOXELIZE_CELLS_WORDS, scalar) buffer CellWordsBlock {
-	uint cell_words[]; // WorldCell as three words: bits, bits, records (here: the face mask only)
+	uint cell_words[]; // WorldCell as four words: bits, bits, records (here: the face mask only), triangles (here: their count)
 };
 
 void visit_cell(VoxelTriangle triangle, ivec3 cell) {
@@ -24,6 +24,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	if (index >= cell_end(constants.cascade)) {
 		return;
 	}
+	atomicAdd(cell_words[index * 4u + 3u], triangle.world_triangle < constants.stored_triangles ? 1u : WORLD_LISTED_TRIANGLES + 1u);
 	MaterialData material = materials[surfaces[triangle.surface].material];
 	bool alpha_tested = is_alpha_tested(material);
 	const float size = 1.0 / float(WORLD_SUB_VOXELS);
@@ -61,7 +62,7 @@ void visit_cell(VoxelTriangle triangle, ivec3 cell) {
 	if ((material.flags & MATERIAL_FLAG_DOUBLE_SIDED) != 0u) {
 		faces |= 1u << (face ^ 1u);
 	}
-	atomicOr(cell_words[index * 3u], bits.x);
-	atomicOr(cell_words[index * 3u + 1u], bits.y);
-	atomicOr(cell_words[index * 3u + 2u], faces);
+	atomicOr(cell_words[index * 4u], bits.x);
+	atomicOr(cell_words[index * 4u + 1u], bits.y);
+	atomicOr(cell_words[index * 4u + 2u], faces);
 }

@@ -26,6 +26,8 @@
 #define WORLD_RECORD_LIGHT 6 // uvec4 a record, 2 x half x 4: radiance that it reflects of all light; irradiance / pi of all light but lamps'
 #define WORLD_SKY 7 // texture2D, octahedral
 #define WORLD_SKY_SAMPLER 8
+#define WORLD_CELL_TRIANGLES 28 // uint: a triangle of a listed cell: its number in WORLD_TRIANGLES, above it the octants of the cell that it touches
+#define WORLD_TRIANGLES 29 // vec4, four a triangle: plane (unit normal of the front, distance from the origin), then corners, all in metres; w of the first corner: WORLD_TRIANGLE_* as bits
 #define WORLD_FETCH_COUNTS 35 // FetchCounts a pass (fetch_counts_inc.glsl)
 
 #define COUNT_FETCHES_ID 0 // specialisation constant
@@ -33,6 +35,19 @@
 // A cell is flat when no surface in it is further than this from its record's plane.
 #define WORLD_FLAT_SUB_VOXELS 0.04
 #define WORLD_CELL_FLAT 0x80000000u
+
+// A cell that at most this many triangles touch lists them: rays meet the triangles themselves there, not the solid bits.
+#define WORLD_LISTED_TRIANGLES 62u
+#define WORLD_NOT_LISTED 0xFFFFFFFFu
+// Triangles are this much larger for rays, in cells: what is cracked by less is closed. As much as coverage is grown, so that lists are complete.
+#define WORLD_TRIANGLE_GROWTH_CELLS (WORLD_TOUCH_SUB_VOXELS / float(WORLD_SUB_VOXELS))
+#define WORLD_TRIANGLE_BYTES 64
+#define WORLD_TRIANGLE_NUMBER_BITS 24
+// The lowest bits: the face that the front mostly looks at.
+#define WORLD_TRIANGLE_FACE 7u
+#define WORLD_TRIANGLE_DOUBLE_SIDED 8u
+#define WORLD_TRIANGLE_ALPHA_TESTED 16u // only where a solid bit is set
+#define WORLD_TRIANGLE_EMISSIVE 32u
 
 // Where a draw that samples GI finds these bindings and the probes': this much higher (transparent_inc.glsl).
 #define GI_SAMPLE_BINDING_BASE 32
@@ -69,12 +84,14 @@ struct GiWorldParams {
 	uint grid_size; // cells an axis, a power of two, at most 256
 	uint cell_capacity; // a cascade
 	uint record_capacity; // a cascade
+	uint triangle_capacity; // a cascade, in lists of cells
 	float sky_scale; // 0: rays that leave the world see nothing
 	int hole_margin_cells; // cells of a coarser cascade deeper than this inside the finer one are never lit nor read
 };
 struct WorldCell {
 	uvec2 bits; // sub-voxel x + 4 y + 16 z
 	uint records; // flat << 31 | index of the first record << 6 | face mask; faces: +x -x +y -y +z -z
+	uint triangles; // index of the first in WORLD_CELL_TRIANGLES << 6 | count, or WORLD_NOT_LISTED: more than fit, the bits decide
 };
 struct WorldRecord {
 	uint position; // centroid in the cell: 9 bits an axis; then 5 bits: offset of the start point along the normal in quarter sub-voxels, 0: no free point
@@ -97,12 +114,14 @@ struct RecordAccumulator {
 struct CascadeCounts {
 	uint cells;
 	uint records;
+	uint triangles; // in lists of cells
 	uvec3 light_groups; // indirect arguments: a work group for eight records
 };
 struct VoxelizeConstants {
 	uint cascade;
 	uint surface_count;
 	uint triangle_count;
+	uint stored_triangles; // in WORLD_TRIANGLES; those beyond have no place there
 };
 struct BuildSdfConstants {
 	uint cascade;
@@ -131,9 +150,9 @@ struct Emitter {
 };
 INTEROP_END
 INTEROP_SIZE(GiCascade, 24)
-INTEROP_SIZE(GiWorldParams, 216)
+INTEROP_SIZE(GiWorldParams, 220)
 INTEROP_SIZE(NearBrickHeader, 16)
-INTEROP_SIZE(WorldCell, 12)
+INTEROP_SIZE(WorldCell, 16)
 INTEROP_SIZE(WorldRecord, 24)
 INTEROP_SIZE(RecordAccumulator, 56)
 #endif

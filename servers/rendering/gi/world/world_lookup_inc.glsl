@@ -17,6 +17,13 @@ layout(set = 0, binding = WORLD_BINDING(WORLD_SDF), scalar) readonly buffer Worl
 	uint world_sdf[];
 };
 
+layout(set = 0, binding = WORLD_BINDING(WORLD_CELL_TRIANGLES), scalar) readonly buffer WorldCellTrianglesBlock {
+	uint world_cell_triangles[];
+};
+layout(set = 0, binding = WORLD_BINDING(WORLD_TRIANGLES), std430) readonly buffer WorldTrianglesBlock {
+	vec4 world_triangles[];
+};
+
 #define WORLD_NO_CELL 0xFFFFFFFFu
 // A stored cell without memory for its content (capacity reached): solid and black.
 #define WORLD_LOST_CELL 0xFFFFFFFEu
@@ -35,7 +42,7 @@ uint find_cell(uint cascade, uvec3 storage) {
 }
 
 WorldCell stored_cell(uint index) {
-	count_fetch(12u);
+	count_fetch(16u);
 	return world_cells[index];
 }
 
@@ -43,7 +50,7 @@ WorldCell stored_cell(uint index) {
 WorldCell load_cell(uint cascade, ivec3 cell) {
 	uint index = find_cell(cascade, storage_from_world_cell(cell));
 	if (index >= WORLD_LOST_CELL) {
-		return WorldCell(uvec2(index == WORLD_NO_CELL ? 0u : 0xFFFFFFFFu), 0u);
+		return WorldCell(uvec2(index == WORLD_NO_CELL ? 0u : 0xFFFFFFFFu), 0u, WORLD_NOT_LISTED);
 	}
 	return stored_cell(index);
 }

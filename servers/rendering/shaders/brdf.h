@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// The shaders' BRDF, compiled as C++, and ways to sample it.
+// The shaders' BRDF, compiled as C++: for the path tracer, for what GI makes of a material (gi_reflectance.h) and for brdf_table.h.
 
 #include "servers/core/math_types.h"
 
@@ -9,8 +9,10 @@ namespace lucent::brdf {
 using glm::clamp;
 using glm::dot;
 using glm::max;
+using glm::min;
 using glm::mix;
 using glm::normalize;
+using glm::vec2;
 using glm::vec3;
 using std::sqrt;
 
