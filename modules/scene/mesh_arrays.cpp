@@ -108,7 +108,7 @@ Result<MeshSurface> surface_from_arrays(const Array &p_arrays) {
 }
 
 Array arrays_from_surface(const MeshSurface &p_surface) {
-	Array arrays(size_t(MeshArray::COUNT));
+	Array arrays = Array(size_t(MeshArray::COUNT));
 	const auto put = [&](MeshArray p_array, auto p_values) {
 		if (!p_values.empty()) {
 			arrays[size_t(p_array)] = Variant(std::move(p_values));

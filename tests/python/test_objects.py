@@ -243,8 +243,12 @@ def test_new_attributes_that_look_like_typos_raise():
 
 @pytest.mark.parametrize("name", ["_enter_tree", "_ready", "_process", "_exit_tree", "_notification"])
 def test_callbacks_raise_with_their_traceback(tree, name):
+    raised = []
+
     def fail(self, *_):
-        raise KeyError("mine")
+        if not raised:  # the tree's end, which notifies too, has nothing to raise
+            raised.append(name)
+            raise KeyError("mine")
 
     node = type("Failing", (lucent.Node,), {name: fail})()
     with pytest.raises(KeyError, match="mine") as caught:
@@ -338,7 +342,8 @@ def test_nodes_do_not_pickle():
 
 
 def test_import_is_quick_and_opens_no_device():
-    code = "import time, numpy; t = time.perf_counter(); import lucent; print(time.perf_counter() - t)"
+    # CPU time: other programs' share of the machine does not count.
+    code = "import time, numpy; t = time.process_time(); import lucent; print(time.process_time() - t)"
     environment = dict(os.environ, VK_DRIVER_FILES="/nowhere", VK_ICD_FILENAMES="/nowhere")
     run = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True) for _ in range(3)]
     assert min(float(result.stdout) for result in run) < 0.3
