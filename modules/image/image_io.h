@@ -17,7 +17,7 @@ namespace lucent {
 inline constexpr uint32_t MAX_IMAGE_SIDE_TEXELS = 32768;
 inline constexpr uint64_t MAX_IMAGE_TEXELS = uint64_t(1) << 27;
 
-// PNG, JPEG, WebP, TGA and BMP become RGBA8 (16-bit PNGs lose their low byte), HDR and EXR become RGBA32F, alpha 1 where the file has none.
+// PNG, JPEG, WebP, TGA and BMP become RGBA8 (16-bit PNGs are rounded), HDR and EXR become RGBA32F, alpha 1 where the file has none.
 // An EXR without plain R, G, B shows its Y (grey) or the first layer that has R, G, B ("Combined.R").
 Result<Image> load_image(const std::string &p_path);
 

@@ -13,7 +13,9 @@ namespace lucent {
 
 namespace {
 
-constexpr int MAX_SCANS = 512; // a progressive file of a few kilobytes can ask for a day of work
+// A progressive file of a few kilobytes can ask for a day of work: every scan visits every block.
+constexpr int MAX_SCANS = 512;
+constexpr uint64_t MAX_SCANNED_TEXELS = uint64_t(1) << 32; // 32 scans of the largest image
 
 struct Decoder {
 	jpeg_decompress_struct state;
@@ -42,8 +44,10 @@ void note(j_common_ptr p_state, int p_level) {
 }
 
 void check_scans(j_common_ptr p_state) {
-	if (reinterpret_cast<j_decompress_ptr>(p_state)->input_scan_number > MAX_SCANS) {
-		std::snprintf(decoder_of(p_state).message, JMSG_LENGTH_MAX, "more than %d scans", MAX_SCANS);
+	const jpeg_decompress_struct &state = decoder_of(p_state).state;
+	const int scans = state.input_scan_number;
+	if (scans > MAX_SCANS || uint64_t(scans) * state.image_width * state.image_height > MAX_SCANNED_TEXELS) {
+		std::snprintf(decoder_of(p_state).message, JMSG_LENGTH_MAX, "more scans than an image of this size has: %d", scans);
 		std::longjmp(decoder_of(p_state).failed, 1);
 	}
 }

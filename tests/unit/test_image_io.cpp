@@ -191,6 +191,9 @@ TEST_CASE("BMP, TGA and WebP: two texels, red and half green") {
 		REQUIRE_MESSAGE(image.ok(), image.error().message);
 		CHECK(image.value().width == 2);
 		CHECK(image.value().height == 1);
+		const Result<Image> cut = load_image_from_memory(to_bytes(text.substr(0, text.size() - 3)), name); // in the last texel
+		REQUIRE_FALSE(cut.ok());
+		CHECK(contains(cut.error().message, "ends too early"));
 		const std::vector<int> expected = { 255, 0, 0, 255, 0, 128, 0, 255 };
 		for (size_t i = 0; i < 8; i++) {
 			CHECK(int(image.value().texels[i]) == expected[i]);
