@@ -8,7 +8,6 @@
 #include <cstring>
 
 using namespace lucent;
-using lucent::test::GltfBuilder;
 
 TEST_CASE("specular-glossiness: what is no metal keeps its colour, a metal takes its specular colour") {
 	const MetallicRoughness plastic = to_metallic_roughness(Vector4(0.5f, 0.25f, 0.1f, 1), Vector3(0.04f), 0.75f);
@@ -44,11 +43,10 @@ TEST_CASE("specular-glossiness: images") {
 }
 
 TEST_CASE("glTF: specular-glossiness factors; what is approximated is one warning each") {
-	GltfBuilder builder;
-	const GltfDocument document = builder.parse(R"("extensionsRequired":["KHR_materials_pbrSpecularGlossiness","EXT_texture_webp","KHR_texture_basisu"],"materials":[
+	const GltfDocument document = test::parse_text(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_materials_pbrSpecularGlossiness","EXT_texture_webp","KHR_texture_basisu"],"materials":[
 		{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0.25,0.1,0.5],"specularFactor":[0,0,0],"glossinessFactor":0.2}}},
 		{"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1},"KHR_materials_sheen":{}}},{"extensions":{"KHR_materials_clearcoat":{}}},
-		{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}}],"textures":[{"extensions":{"KHR_texture_basisu":{"source":0}}}],"images":[{"uri":"a.ktx2"}],)")
+		{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}}],"textures":[{"extensions":{"KHR_texture_basisu":{"source":0}}}],"images":[{"uri":"a.ktx2"}]})")
 										  .take();
 	REQUIRE(document.materials.size() == 4);
 	CHECK(document.materials[0].roughness == doctest::Approx(0.8f));
