@@ -212,8 +212,9 @@ void MaterialLoader::load_specular_glossiness(const JsonView &p_json, GltfMateri
 	}
 	std::vector<GltfImage> &images = context.document.images;
 	const std::shared_ptr<const Image> diffuse = r_material.base_color_texture.image < 0 ? nullptr : images[size_t(r_material.base_color_texture.image)].image;
-	context.charge(uint64_t(images[size_t(specular.image)].image->width) * images[size_t(specular.image)].image->height, 8, p_json);
-	MetallicRoughnessImages made = to_metallic_roughness_images(source, diffuse, *images[size_t(specular.image)].image);
+	const Image &packed = *images[size_t(specular.image)].image;
+	context.charge(uint64_t(std::max(packed.width, diffuse ? diffuse->width : 0)) * std::max(packed.height, diffuse ? diffuse->height : 0), 8, p_json);
+	MetallicRoughnessImages made = to_metallic_roughness_images(source, diffuse, packed);
 	r_material.base_color_texture = r_material.base_color_texture.image < 0 ? specular : r_material.base_color_texture;
 	r_material.metallic_roughness_texture = specular;
 	r_material.base_color_texture.image = int32_t(images.size());

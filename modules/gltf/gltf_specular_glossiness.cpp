@@ -65,7 +65,8 @@ MetallicRoughness to_metallic_roughness(const Vector4 &p_diffuse, const Vector3 
 }
 
 MetallicRoughnessImages to_metallic_roughness_images(const SpecularGlossiness &p_factors, const std::shared_ptr<const Image> &p_diffuse, const Image &p_specular_glossiness) {
-	const uint32_t width = p_specular_glossiness.width, height = p_specular_glossiness.height;
+	const uint32_t width = std::max(p_specular_glossiness.width, p_diffuse ? p_diffuse->width : 0);
+	const uint32_t height = std::max(p_specular_glossiness.height, p_diffuse ? p_diffuse->height : 0);
 	MetallicRoughnessImages made;
 	for (Image *image : { &made.base_color, &made.metallic_roughness }) {
 		*image = { ImageFormat::RGBA8, width, height, std::vector<std::byte>(size_t(width) * height * 4) };

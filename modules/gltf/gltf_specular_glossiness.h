@@ -28,7 +28,7 @@ struct MetallicRoughnessImages {
 	Image base_color; // sRGB and alpha
 	Image metallic_roughness; // roughness in G, metallic in B
 };
-// RGBA8 images, the diffuse one may be null. Both results have p_specular_glossiness's size. p_specular_glossiness: sRGB specular colour, glossiness in A.
+// RGBA8 images, the diffuse one may be null. Both results have the greater width and height of the two. p_specular_glossiness: sRGB specular colour, glossiness in A.
 MetallicRoughnessImages to_metallic_roughness_images(const SpecularGlossiness &p_factors, const std::shared_ptr<const Image> &p_diffuse, const Image &p_specular_glossiness);
 
 } // namespace lucent

@@ -21,6 +21,7 @@ struct Item {
 	std::string name;
 	std::string mesh_name;
 	bool is_mesh = false;
+	bool is_left_out = false;
 	Item *parent = nullptr;
 	std::vector<std::unique_ptr<Item>> children;
 
@@ -30,7 +31,7 @@ struct Item {
 		return children.back().get();
 	}
 	bool has_child(const std::string &p_name) const {
-		return std::any_of(children.begin(), children.end(), [&](const std::unique_ptr<Item> &p_child) { return p_child->name == p_name; });
+		return std::any_of(children.begin(), children.end(), [&](const std::unique_ptr<Item> &p_child) { return !p_child->is_left_out && p_child->name == p_name; });
 	}
 };
 
@@ -239,8 +240,9 @@ private:
 
 	// A skin's mesh stands in its skeleton's space.
 	void move_skinned_meshes() {
-		for (const auto &[item, skeleton] : skinned) {
-			Item *target = skeletons[size_t(skeleton)];
+		for (const std::pair<Item *, int32_t> &entry : skinned) {
+			const Item *item = entry.first;
+			Item *target = skeletons[size_t(entry.second)];
 			if (target == nullptr || item->parent == nullptr) { // the skeleton is in another scene of the file
 				continue;
 			}
@@ -288,7 +290,10 @@ private:
 
 	// Children first. False: the node goes, with all below it.
 	bool apply_hints(Item &r_item, bool p_is_root) {
-		std::erase_if(r_item.children, [&](const std::unique_ptr<Item> &p_child) { return !apply_hints(*p_child, false); });
+		for (const std::unique_ptr<Item> &child : r_item.children) { // all first: they look at their siblings' names
+			child->is_left_out = !apply_hints(*child, false);
+		}
+		std::erase_if(r_item.children, [](const std::unique_ptr<Item> &p_child) { return p_child->is_left_out; });
 		const std::string name = r_item.name;
 		if (!p_is_root && has_name_hint(name, "noimp")) {
 			return false;

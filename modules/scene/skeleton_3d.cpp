@@ -15,16 +15,24 @@ int Skeleton3D::add_bone(const std::string &p_name, int p_parent, const Transfor
 	}
 	const RotationScale parts = decompose_basis(p_rest.basis);
 	bones.push_back({ p_name, p_parent, p_rest, p_rest.origin, glm::quat_cast(parts.rotation), parts.scale });
+	names.emplace(p_name, get_bone_count() - 1);
 	return get_bone_count() - 1;
 }
 
 int Skeleton3D::find_bone(const std::string &p_name) const {
-	for (size_t i = 0; i < bones.size(); i++) {
-		if (bones[i].name == p_name) {
-			return int(i);
-		}
+	const auto found = names.find(p_name);
+	return found == names.end() ? -1 : found->second;
+}
+
+bool Skeleton3D::rename_bone(int p_bone, const std::string &p_name) {
+	const int taken = find_bone(p_name);
+	if (p_name.empty() || (taken >= 0 && taken != p_bone)) {
+		return false;
 	}
-	return -1;
+	names.erase(bones[size_t(p_bone)].name);
+	names.emplace(p_name, p_bone);
+	bones[size_t(p_bone)].name = p_name;
+	return true;
 }
 
 const Skeleton3D::Bone *Skeleton3D::bone(int p_bone) const {
@@ -97,7 +105,7 @@ bool Skeleton3D::_set(const std::string &p_name, const Variant &p_value) {
 	Bone &target = bones[size_t(index)];
 	bool done = false;
 	if (field == "name") {
-		done = assign(target.name, p_value);
+		done = rename_bone(index, variant_or<std::string>(p_value, ""));
 	} else if (field == "parent") {
 		const int parent = variant_or<int>(p_value, index);
 		done = parent >= -1 && parent < index; // so that no bone is its own ancestor
@@ -149,6 +157,19 @@ bool Skeleton3D::_get(const std::string &p_name, Variant &r_value) const {
 		return false;
 	}
 	return true;
+}
+
+void Skeleton3D::_get_property_list(std::vector<PropertyInfo> &r_list) const {
+	static constexpr std::pair<const char *, Variant::Type> FIELDS[] = { { "name", Variant::Type::STRING }, { "parent", Variant::Type::INT }, { "rest", Variant::Type::TRANSFORM3D },
+		{ "position", Variant::Type::VECTOR3 }, { "rotation", Variant::Type::QUATERNION }, { "scale", Variant::Type::VECTOR3 } };
+	for (int i = 0; i < get_bone_count(); i++) {
+		for (const auto &[name, type] : FIELDS) {
+			PropertyInfo property;
+			property.name = fmt::format("bones/{}/{}", i, name);
+			property.type = type;
+			r_list.push_back(std::move(property));
+		}
+	}
 }
 
 Skeleton3D *BoneAttachment3D::find_skeleton() {

@@ -4,6 +4,7 @@
 #include "modules/scene/node_3d.h"
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace lucent::scene {
@@ -24,6 +25,7 @@ public:
 	// bones/N/name, parent, rest, enabled, position, rotation, scale
 	bool _set(const std::string &p_name, const Variant &p_value) override;
 	bool _get(const std::string &p_name, Variant &r_value) const override;
+	void _get_property_list(std::vector<PropertyInfo> &r_list) const override;
 
 private:
 	struct Bone {
@@ -35,9 +37,11 @@ private:
 		Vector3 scale{ 1.0f };
 	};
 	const Bone *bone(int p_bone) const;
+	bool rename_bone(int p_bone, const std::string &p_name); // false: the name is taken or empty
 	void pose_changed();
 
 	std::vector<Bone> bones;
+	std::unordered_map<std::string, int> names; // to bones
 };
 
 // Goes where a bone of the Skeleton3D above (or of another one) is.

@@ -96,6 +96,7 @@ TEST_CASE("bone attachments follow their bone by name or index") {
 	CHECK(skeleton.add_bone("hip", -1, { Basis(1.0f), Vector3(0, 1, 0) }) == 0);
 	CHECK(skeleton.add_bone("hip", -1, {}) == -1);
 	CHECK(skeleton.set("bones/1/name", "head"));
+	CHECK_FALSE(skeleton.set("bones/1/name", "hip"));
 	CHECK(skeleton.set("bones/1/parent", 0));
 	CHECK_FALSE(skeleton.set("bones/1/parent", 1));
 	CHECK(skeleton.set("bones/1/position", Vector3(0, 2, 0)));
@@ -105,6 +106,9 @@ TEST_CASE("bone attachments follow their bone by name or index") {
 	CHECK(hat->get_position() == Vector3(0, 3, 0));
 	CHECK(skeleton.set("bones/0/position", Vector3(0, 5, 0)));
 	CHECK(hat->get_position() == Vector3(0, 7, 0));
+	const std::unique_ptr<scene::Node> copy = skeleton.duplicate();
+	CHECK(dynamic_cast<scene::Skeleton3D &>(*copy).find_bone("head") == 1);
+	CHECK(copy->get_child(0)->get("position") == Variant(Vector3(0, 7, 0)));
 	hat->set("bone_idx", 0);
 	CHECK(hat->get_bone_name() == "hip");
 	CHECK(hat->get_position() == Vector3(0, 5, 0));
