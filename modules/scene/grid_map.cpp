@@ -87,6 +87,21 @@ bool MeshLibrary::_get(const std::string &p_name, Variant &r_value) const {
 	return true;
 }
 
+void MeshLibrary::_get_property_list(std::vector<PropertyInfo> &r_list) const {
+	static constexpr std::pair<const char *, Variant::Type> FIELDS[] = { { "name", Variant::Type::STRING }, { "mesh", Variant::Type::OBJECT },
+		{ "mesh_transform", Variant::Type::TRANSFORM3D }, { "mesh_cast_shadow", Variant::Type::INT } };
+	for (const auto &[index, item] : items) {
+		for (const auto &[name, type] : FIELDS) {
+			PropertyInfo property;
+			property.name = fmt::format("item/{}/{}", index, name);
+			property.type = type;
+			property.class_name = type == Variant::Type::OBJECT ? "Mesh" : "";
+			property.hint = type == Variant::Type::OBJECT ? PropertyHint::RESOURCE_TYPE : PropertyHint::NONE;
+			r_list.push_back(std::move(property));
+		}
+	}
+}
+
 std::vector<PlacedMesh> GridMap::get_placed() const {
 	const Vector3 half = 0.5f * state.cell_size * Vector3(state.cell_center_x, state.cell_center_y, state.cell_center_z);
 	std::vector<PlacedMesh> placed;
@@ -97,10 +112,29 @@ std::vector<PlacedMesh> GridMap::get_placed() const {
 		const MeshLibrary::Item *item = state.mesh_library->find_item(int(cell & 0xFFFF));
 		if (item && item->mesh) {
 			const Transform3D place = { turn(cell >> 16 & 31) * state.cell_scale, index * state.cell_size + half };
-			placed.push_back({ place * item->mesh_transform, item->mesh });
+			placed.push_back({ place * item->mesh_transform, item->mesh, item->cast_shadow });
 		}
 	}
 	return placed;
+}
+
+GridMap::~GridMap() {
+	state.mesh_library = nullptr;
+	state_changed();
+}
+
+void GridMap::state_changed() {
+	if (connected != state.mesh_library) {
+		if (connected) {
+			connected->disconnect(connection);
+		}
+		connected = state.mesh_library;
+		if (connected) {
+			connection = connected->connect(
+					"changed", [this](const Array &) { rebuild(); }, this);
+		}
+	}
+	rebuild();
 }
 
 bool GridMap::_set(const std::string &p_name, const Variant &p_value) {
@@ -122,6 +156,13 @@ bool GridMap::_get(const std::string &p_name, Variant &r_value) const {
 	data.entries.emplace_back(Variant("cells"), Variant(cells));
 	r_value = data;
 	return true;
+}
+
+void GridMap::_get_property_list(std::vector<PropertyInfo> &r_list) const {
+	PropertyInfo property;
+	property.name = "data";
+	property.type = Variant::Type::DICTIONARY;
+	r_list.push_back(std::move(property));
 }
 
 void GridMap::rebuild() {

@@ -22,6 +22,7 @@ public:
 	// item/N/name, mesh, mesh_transform, mesh_cast_shadow; what is for physics and navigation is taken and not kept
 	bool _set(const std::string &p_name, const Variant &p_value) override;
 	bool _get(const std::string &p_name, Variant &r_value) const override;
+	void _get_property_list(std::vector<PropertyInfo> &r_list) const override;
 
 private:
 	std::map<int, Item> items;
@@ -32,6 +33,7 @@ class GridMap : public Node3D {
 	LUCENT_CLASS(GridMap, Node3D)
 public:
 	GridMap() { set_notify_transform(true); }
+	~GridMap() override;
 	struct State {
 		Ref<MeshLibrary> mesh_library;
 		Vector3 cell_size{ 2.0f };
@@ -40,12 +42,13 @@ public:
 		bool cell_center_z = true;
 		float cell_scale = 1.0f;
 	} state;
-	void state_changed() { rebuild(); }
+	void state_changed();
 	std::vector<PlacedMesh> get_placed() const;
 
 	// data: a dictionary with "cells", three integers each
 	bool _set(const std::string &p_name, const Variant &p_value) override;
 	bool _get(const std::string &p_name, Variant &r_value) const override;
+	void _get_property_list(std::vector<PropertyInfo> &r_list) const override;
 
 protected:
 	void _notification(int p_what) override;
@@ -53,6 +56,8 @@ protected:
 private:
 	void rebuild();
 
+	Ref<MeshLibrary> connected; // whose changes are listened to
+	ConnectionID connection = 0;
 	std::vector<int32_t> cells;
 	InstanceGroup group;
 };

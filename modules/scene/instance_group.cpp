@@ -21,7 +21,7 @@ void InstanceGroup::enter(const Node3D &p_node, std::vector<PlacedMesh> p_meshes
 		server.instance_set_visible(instance, p_node.is_visible_in_tree());
 		server.instance_set_layer_mask(instance, p_look.layers);
 		server.instance_geometry_set_material_override(instance, p_look.material_override);
-		server.instance_geometry_set_cast_shadows_setting(instance, p_look.cast_shadow);
+		server.instance_geometry_set_cast_shadows_setting(instance, placed.cast_shadow.value_or(p_look.cast_shadow));
 		server.instance_geometry_set_gi_mode(instance, p_look.gi_mode);
 		server.instance_geometry_set_transparency(instance, p_look.transparency);
 		server.instance_set_base(instance, placed.mesh->get_rid(*context));

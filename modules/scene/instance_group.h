@@ -5,6 +5,7 @@
 #include "modules/scene/mesh.h"
 #include "modules/scene/node_3d.h"
 
+#include <optional>
 #include <vector>
 
 namespace lucent::scene {
@@ -12,6 +13,7 @@ namespace lucent::scene {
 struct PlacedMesh {
 	Transform3D transform; // to the node
 	Ref<Mesh> mesh;
+	std::optional<ShadowCasting> cast_shadow = {}; // its own; else the node's
 };
 
 struct InstanceLook {

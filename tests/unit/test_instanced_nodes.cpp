@@ -77,4 +77,8 @@ TEST_CASE("GridMap: cells of a MeshLibrary, turned") {
 	grid->set("cell_size", Vector3(4.0f));
 	CHECK(shown_places(snapshot).back() == Vector3(6.25f, -4, 10));
 	CHECK_FALSE(grid->set("data", 5));
+	CHECK(library->set("item/9/mesh", std::make_shared<scene::BoxMesh>()));
+	CHECK(shown_places(snapshot).size() == 3);
+	const std::unique_ptr<scene::Node> copy = grid->duplicate();
+	CHECK(dynamic_cast<scene::GridMap &>(*copy).get_placed().size() == 3);
 }
