@@ -37,7 +37,7 @@ constexpr LeftOutKind KINDS[] = {
 	{ "Marker3D Path3D PathFollow3D RemoteTransform3D XROrigin3D XRNode3D XRController3D XRAnchor3D *XR*", NONE, true, "markers, paths and XR" },
 	{ "*2D ParallaxLayer ParallaxBackground TileMap TileMapLayer TileSet* CanvasLayer CanvasGroup CanvasModulate BackBufferCopy Bone2D CanvasItemMaterial ParticleProcessMaterial SpriteFrames", NONE, false, "2D" },
 	{ "Control Container *Container *Button BaseButton Label RichTextLabel LinkButton Panel ColorRect TextureRect NinePatchRect ReferenceRect LineEdit TextEdit CodeEdit SpinBox Range *Slider Slider *ScrollBar ScrollBar ProgressBar TextureProgressBar ItemList Tree TabBar Tabs MenuBar GraphEdit GraphElement GraphNode GraphFrame VideoStreamPlayer VideoStream* *Separator Separator ColorPicker StyleBox* Theme *Font Font* LabelSettings ButtonGroup SyntaxHighlighter TextureButton Popup* *Dialog VirtualJoystick", NONE, false, "user interfaces" },
-	{ "Timer HTTPRequest Multiplayer* ResourcePreloader ShaderGlobalsOverride CanvasItem InstancePlaceholder MissingNode StatusIndicator InputEvent* Shortcut Curve Curve3D Compositor CompositorEffect SceneReplicationConfig PackedDataContainer Script GDScript CSharpScript JSON Translation RDShaderFile EditorSettings FastNoiseLite Noise ColorPalette", NONE, false, "scripts, timers, networks" },
+	{ "Timer HTTPRequest Multiplayer* ResourcePreloader ShaderGlobalsOverride CanvasItem InstancePlaceholder MissingNode StatusIndicator InputEvent* Shortcut Curve Curve3D Compositor CompositorEffect SceneReplicationConfig PackedDataContainer Script GDScript CSharpScript JSON Translation RDShaderFile EditorSettings FastNoiseLite Noise ColorPalette", NONE, false, "timers, networks" },
 };
 // clang-format on
 
@@ -86,8 +86,11 @@ bool is_property_without_effect(std::string_view p_class, std::string_view p_pro
 											"visibility_parent sorting_* _import_path _bundled editable_instance multiplayer_authority bone_map motion_scale animate_physical_bones "
 											"modifier_callback_mode* show_rest_only directional_shadow_pancake_size directional_shadow_split_* directional_shadow_blend_splits directional_shadow_mode "
 											"directional_shadow_fade_start omni_shadow_mode light_volumetric_fog_energy shadow_caster_mask shadow_blur shadow_transmittance_bias shadow_reverse_cull_face "
-											"radiance_size process_mode compositor background_canvas_max_layer background_camera_feed_id";
+											"radiance_size process_mode use_debanding compositor background_canvas_max_layer background_camera_feed_id";
 	if (any_matches(ANYWHERE, p_property)) {
+		return true;
+	}
+	if (p_class == "GridMap" && any_matches("cell_octant_size bake_navigation collision_* baked_meshes", p_property)) {
 		return true;
 	}
 	return p_class == "SubViewport" || p_class == "Window" || p_class == "World3D"; // their pictures aren't drawn

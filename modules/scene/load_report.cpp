@@ -103,8 +103,14 @@ void LoadReport::left_out_property(const std::string &p_place, const std::string
 	finish();
 }
 
-void LoadReport::warning(const std::string &p_key, const std::string &p_message) {
-	mention("warning " + p_key, { "", p_message, LeftOutEffect::LOOK, nullptr, false, 0, {} });
+bool LoadReport::warning(const std::string &p_key, const std::string &p_message) {
+	const bool is_first = mention("warning " + p_key, { "", p_message, LeftOutEffect::LOOK, nullptr, false, 0, {} }).count == 1;
+	finish();
+	return is_first;
+}
+
+void LoadReport::note(const std::string &p_key, const std::string &p_message) {
+	mention("note " + p_key, { "", p_message, LeftOutEffect::NONE, nullptr, false, 0, {} });
 	finish();
 }
 

@@ -22,8 +22,10 @@ public:
 	// p_place: "level.tscn:12". A node or resource of a class that isn't here. Those without effect on a picture: said only when verbose.
 	static void left_out_class(const std::string &p_place, const std::string &p_class);
 	static void left_out_property(const std::string &p_place, const std::string &p_class, const std::string &p_property);
-	// One line for each p_key, with a count from the second on.
-	static void warning(const std::string &p_key, const std::string &p_message);
+	// One line for each p_key, with a count from the second on. Answers whether this was the first.
+	static bool warning(const std::string &p_key, const std::string &p_message);
+	// As warning, but said only when verbose.
+	static void note(const std::string &p_key, const std::string &p_message);
 	// A part that can't be read: said at once, a line each, and counted for --strict.
 	static void error(const std::string &p_message);
 	static int error_count(); // since the start of the program

@@ -125,7 +125,8 @@ private:
 		if (p_type.empty()) {
 			return reader.fail(fmt::format("[{}] needs a type", p_header.tag));
 		}
-		r_resource = ClassDB::instantiate_resource(p_type);
+		const bool is_script = is_gd_script(p_type, "");
+		r_resource = is_script ? make_gd_script("") : ClassDB::instantiate_resource(p_type);
 		if (!r_resource) {
 			scene::LoadReport::left_out_class(fmt::format("{}:{}", source, p_header.line), p_type);
 		}
@@ -133,7 +134,7 @@ private:
 			return false;
 		}
 		for (const TscnProperty &property : properties) {
-			if (r_resource) {
+			if (r_resource && !is_script) {
 				set_text_property(*r_resource, property, source);
 			}
 		}
@@ -211,14 +212,14 @@ private:
 	Result<Variant> load_external(ExternalResource &r_external) {
 		if (!r_external.loaded) {
 			r_external.loaded = true;
-			if (r_external.type == "Script" || r_external.type == "GDScript") { // its owner's line says what is lost
-				r_external.resource = make_gd_script(resolve_resource_path(r_external.path, source, path_folder(loading_stack().front())));
-				return Variant(r_external.resource);
-			}
-			if (is_without_effect(r_external)) {
+			if (!is_gd_script(r_external.type, r_external.path) && is_without_effect(r_external)) {
 				return Variant();
 			}
 			const Result<std::string> located = locate(r_external);
+			if (is_gd_script(r_external.type, r_external.path)) { // its owner's line says what is lost
+				r_external.resource = make_gd_script(located ? located.value() : r_external.path);
+				return Variant(r_external.resource);
+			}
 			if (!located) {
 				last_failure = located.error().message;
 				scene::LoadReport::error(fmt::format("{}:{}: {}", source, r_external.line, last_failure));
@@ -267,7 +268,7 @@ private:
 
 	// Scripts, sounds and the like; they may be of kinds that nobody here reads.
 	static bool is_without_effect(const ExternalResource &p_external) {
-		static constexpr const char *EXTENSIONS[] = { "gd", "cs", "gdshaderinc", "wav", "ogg", "mp3", "ttf", "otf", "woff", "woff2", "fnt", "translation", "json", "csv" };
+		static constexpr const char *EXTENSIONS[] = { "gdshaderinc", "wav", "ogg", "mp3", "ttf", "otf", "woff", "woff2", "fnt", "translation", "json", "csv" };
 		const std::string extension = path_extension(p_external.path);
 		const scene::LeftOutKind *kind = scene::find_left_out(p_external.type);
 		return (kind != nullptr && kind->effect == scene::LeftOutEffect::NONE) ||

@@ -148,8 +148,12 @@ void set_text_property(Object &r_object, const TscnProperty &p_property, const s
 		return;
 	}
 	if (p_property.name == "script") {
-		const Resource *script = dynamic_cast<const Resource *>(p_property.value.get_object());
-		scene::LoadReport::warning(fmt::format("{}|script", place), fmt::format("{}: {}", place, gd_script_notice(r_object, script)));
+		if (const Resource *script = dynamic_cast<const Resource *>(p_property.value.get_object())) { // the first stands for all
+			const std::string notice = fmt::format("{}: {}", place, gd_script_notice(r_object, *script));
+			if (!scene::LoadReport::warning("script", notice)) {
+				scene::LoadReport::note(notice, notice);
+			}
+		}
 		return;
 	}
 	if (!r_object.has_property(p_property.name)) {

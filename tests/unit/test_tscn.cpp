@@ -155,6 +155,37 @@ process_priority = 3
 	CHECK(log.messages.size() == 1);
 }
 
+TEST_CASE("tscn: scripts are one counted line; C# and scripts in the scene count, null does not") {
+	const Project project;
+	const LogCapture log;
+	project.file("project.godot", "config_version=5\n");
+	project.file("new/lamp.gd", "extends Node\nfunc _ready():\n\tpass\n");
+	project.file("new/lamp.gd.uid", "uid://lamp1\n");
+	build(project.file("many.tscn", R"([gd_scene format=3]
+[ext_resource type="Script" uid="uid://lamp1" path="res://old/lamp.gd" id="1"]
+[ext_resource type="Script" path="res://Door.cs" id="2"]
+[sub_resource type="GDScript" id="3"]
+script/source = "extends Node
+func _process(delta):
+	pass
+"
+[node name="Lamp" type="Node3D"]
+script = ExtResource("1")
+[node name="Door" type="Node3D" parent="."]
+script = ExtResource("2")
+[node name="Inner" type="Node3D" parent="."]
+script = SubResource("3")
+[node name="None" type="Node3D" parent="."]
+script = null
+)"));
+	CHECK(log.count("many.tscn:10: scripts are not run: 'Lamp' loses _ready of lamp.gd; lucent.attach() in Python can replace it (3 times)") == 1);
+	CHECK(log.count("many.tscn:12: scripts are not run: 'Door' loses Door.cs") == 1);
+	CHECK(log.count("many.tscn:14: scripts are not run: 'Inner' loses a script") == 1);
+	CHECK(log.messages.size() == 3);
+	CHECK(log.infos == 2); // all but the first, for --verbose
+	CHECK(log.errors == 0);
+}
+
 TEST_CASE("tscn: broken files say file and line") {
 	const Project project;
 	const auto text_failure = [&](const std::string &p_text) { return failure(project.file("bad.tscn", p_text)); };
