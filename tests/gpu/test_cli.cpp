@@ -269,6 +269,28 @@ TEST_CASE("cli: what can go on goes on, with a warning") {
 	check_warned(render(folder, folder.file("unknown.tscn", "[gd_scene format=3]\n\n[node name=\"A\" type=\"Node3D\"]\nbogus = 3\n[node name=\"B\" type=\"Gizmo9\" parent=\".\"]\n")), folder, "unknown.tscn:4");
 }
 
+TEST_CASE("cli: a scene without lights is the same picture at a millimetre and at 100 km, GI and shadows included") {
+	const Folder folder;
+	std::string pictures[2];
+	for (const int i : { 0, 1 }) {
+		const double scale = i == 0 ? 1e-3 : 1e5;
+		std::string text = "[gd_scene format=3]\n";
+		for (const char *size : { "2, 0.1, 2", "0.5, 1, 0.5" }) {
+			text += fmt::format("[sub_resource type=\"BoxMesh\" id=\"{}\"]\nsize = Vector3({})\n", size, size);
+		}
+		text += fmt::format("[node name=\"Root\" type=\"Node3D\"]\n[node name=\"All\" type=\"Node3D\" parent=\".\"]\ntransform = Transform3D({0}, 0, 0, 0, {0}, 0, 0, 0, {0}, 0, 0, 0)\n", scale);
+		text += "[node name=\"Floor\" type=\"MeshInstance3D\" parent=\"All\"]\nmesh = SubResource(\"2, 0.1, 2\")\n"
+				"[node name=\"Box\" type=\"MeshInstance3D\" parent=\"All\"]\nmesh = SubResource(\"0.5, 1, 0.5\")\n";
+		pictures[i] = (folder.path / fmt::format("{}.exr", i)).string();
+		const CommandResult result = lucent_command("render '" + folder.file("scaled.tscn", text) + "' -o '" + pictures[i] + "' --size 48x27 --frames 2 --quiet" + device_option());
+		INFO(result.err);
+		REQUIRE(result.code == EXIT_OK);
+	}
+	const CommandResult compared = lucent_command("compare '" + pictures[0] + "' '" + pictures[1] + "' --threshold nrmse=0.01");
+	INFO(compared.err);
+	CHECK(compared.code == EXIT_OK);
+}
+
 TEST_CASE("cli: outputs that can't be written") {
 	const Folder folder;
 	const std::string scene = triangle_gltf(folder, 2, 0.0f, "3");
