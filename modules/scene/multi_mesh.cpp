@@ -41,7 +41,9 @@ void MultiMeshInstance3D::set_multimesh(const Ref<MultiMesh> &p_multimesh) {
 AABB MultiMeshInstance3D::get_aabb() const {
 	AABB bounds;
 	for (const PlacedMesh &placed : multimesh ? multimesh->get_placed() : std::vector<PlacedMesh>()) {
-		bounds.merge_with(placed.mesh->get_aabb().xform(placed.transform));
+		if (const AABB box = placed.mesh->get_aabb(); !box.is_empty()) {
+			bounds.merge_with(box.xform(placed.transform));
+		}
 	}
 	return bounds;
 }
