@@ -148,12 +148,16 @@ Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_
 
 } // namespace
 
-Status check_image_size(uint64_t p_width, uint64_t p_height, const std::string &p_name) {
+Status check_image_size(uint64_t p_width, uint64_t p_height, const std::string &p_name, uint64_t p_bytes) {
+	static constexpr uint64_t MOST_TEXELS_A_BYTE = 16384;
 	if (p_width == 0 || p_height == 0) {
 		return make_error("{}: the image is empty: {} x {} texels", p_name, p_width, p_height);
 	}
 	if (p_width > MAX_IMAGE_SIDE_TEXELS || p_height > MAX_IMAGE_SIDE_TEXELS || p_width * p_height > MAX_IMAGE_TEXELS) {
 		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, p_width, p_height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	}
+	if (p_width * p_height / MOST_TEXELS_A_BYTE > p_bytes) {
+		return make_error("{}: broken or truncated: {} bytes can't hold {} x {} texels", p_name, p_bytes, p_width, p_height);
 	}
 	return Ok();
 }

@@ -72,7 +72,7 @@ bool decode(Decoder &r_decoder, std::span<const std::byte> p_bytes, Image &r_ima
 	jpeg_read_header(&state, TRUE);
 	r_image.width = state.image_width;
 	r_image.height = state.image_height;
-	r_too_large = !check_image_size(state.image_width, state.image_height, "").ok();
+	r_too_large = !check_image_size(state.image_width, state.image_height, "", p_bytes.size()).ok();
 	if (r_too_large) {
 		return false;
 	}
@@ -112,7 +112,7 @@ Result<Image> load_jpeg(std::span<const std::byte> p_bytes, const std::string &p
 	const bool done = decode(decoder, p_bytes, image, too_large);
 	jpeg_destroy_decompress(&decoder.state);
 	if (too_large) {
-		return check_image_size(image.width, image.height, p_name).error();
+		return check_image_size(image.width, image.height, p_name, p_bytes.size()).error();
 	}
 	return done ? Result<Image>(std::move(image)) : Result<Image>(make_error("{}: broken or truncated JPEG data ({})", p_name, decoder.message));
 }

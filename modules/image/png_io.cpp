@@ -42,7 +42,7 @@ bool decode(png_structp p_png, png_infop p_info, Source &r_source, Image &r_imag
 	png_read_info(p_png, p_info);
 	r_image.width = png_get_image_width(p_png, p_info);
 	r_image.height = png_get_image_height(p_png, p_info);
-	r_too_large = !check_image_size(r_image.width, r_image.height, "").ok();
+	r_too_large = !check_image_size(r_image.width, r_image.height, "", r_source.bytes.size()).ok();
 	if (r_too_large) {
 		return false;
 	}
@@ -82,7 +82,7 @@ Result<Image> load_png(std::span<const std::byte> p_bytes, const std::string &p_
 	const bool done = decode(png, info, source, image, rows, too_large);
 	png_destroy_read_struct(&png, &info, nullptr);
 	if (too_large) {
-		return check_image_size(image.width, image.height, p_name).error();
+		return check_image_size(image.width, image.height, p_name, p_bytes.size()).error();
 	}
 	return done ? Result<Image>(std::move(image)) : Result<Image>(make_error("{}: broken or truncated PNG data ({})", p_name, source.message));
 }

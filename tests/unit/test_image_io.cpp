@@ -171,6 +171,17 @@ TEST_CASE("JPEG: a grey picture is decoded, a cut one is an error") {
 	}
 }
 
+TEST_CASE("JPEG: a few bytes don't ask for half a gigabyte") {
+	std::vector<std::byte> file = tiny_jpeg();
+	const std::byte marker[] = { std::byte(0xFF), std::byte(0xC0) };
+	const auto frame = std::search(file.begin(), file.end(), std::begin(marker), std::end(marker));
+	REQUIRE(file.end() - frame > 9);
+	std::fill(frame + 5, frame + 9, std::byte(0x2D)); // 11565 x 11565
+	const Result<Image> image = load_image_from_memory(file, "a.jpg");
+	REQUIRE(!image.ok());
+	CHECK(contains(image.error().message, "bytes can't hold 11565 x 11565 texels"));
+}
+
 TEST_CASE("JPEG: a Huffman table of more codes than there are is an error") {
 	std::vector<std::byte> file = tiny_jpeg();
 	const std::byte marker[] = { std::byte(0xFF), std::byte(0xC4) };
