@@ -51,14 +51,4 @@ void InstanceGroup::set_visible(bool p_visible) {
 	}
 }
 
-AABB InstanceGroup::aabb() const {
-	AABB bounds;
-	for (const PlacedMesh &placed : meshes) {
-		if (const AABB box = placed.mesh->get_aabb(); !box.is_empty()) {
-			bounds.merge_with(box.xform(placed.transform));
-		}
-	}
-	return bounds;
-}
-
 } // namespace lucent::scene

@@ -35,7 +35,6 @@ public:
 	void set_transform(const Transform3D &p_transform);
 	void set_visible(bool p_visible);
 	size_t size() const { return instances.size(); }
-	AABB aabb() const; // in the node's space
 
 private:
 	SceneContext *context = nullptr;

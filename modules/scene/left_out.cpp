@@ -20,7 +20,6 @@ constexpr LeftOutKind KINDS[] = {
 	{ "SoftBody3D", GEOMETRY, true, "soft bodies" },
 	{ "ImmediateMesh PointMesh RibbonTrailMesh TubeTrailMesh PlaceholderMesh", GEOMETRY, false, "meshes of points, lines and trails" },
 	{ "ShaderMaterial Shader VisualShader", LOOK, false, "shaders of one's own" },
-	{ "ORMMaterial3D", LOOK, false, "ORM materials" },
 	{ "FogMaterial FogVolume", LOOK, true, "fog" },
 	{ "Decal", LOOK, true, "decals" },
 	{ "ReflectionProbe", LOOK, true, "reflection probes" },

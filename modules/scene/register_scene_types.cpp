@@ -22,6 +22,7 @@ static void register_resources() {
 	ClassDB::register_abstract_class<Material>();
 	ClassDB::register_abstract_class<BaseMaterial3D>();
 	ClassDB::register_class<StandardMaterial3D>();
+	ClassDB::register_class<ORMMaterial3D>();
 	ClassDB::register_abstract_class<Mesh>();
 	ClassDB::register_class<ArrayMesh>();
 	ClassDB::register_abstract_class<PrimitiveMesh>();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What is wrong in text scenes, or not to be found: the rest is shown, and what is said about it.
 #include "modules/scene/load_report.h"
+#include "modules/scene/material.h"
 #include "servers/core/class_db.h"
+#include "servers/rendering/rendering_server.h"
 #include "tests/test_support.h"
 #include "tests/unit/tscn_test_files.h"
 
@@ -87,6 +89,27 @@ mesh = SubResource("mesh")
 	REQUIRE(material.get_object() != nullptr);
 	CHECK(material.get_object()->get("roughness") == Variant(2.0));
 	CHECK(failure(project.file("open.tscn", "[gd_scene format=3]\n[node name=\"A\" type=\"Node\"]\nx = Object(Resource, \"a\": (1)\n")).find("expected ')'") != std::string::npos);
+}
+
+TEST_CASE("ORMMaterial3D: one texture for occlusion, roughness and metallic; white without it") {
+	scene::register_scene_classes();
+	RenderingServer server(nullptr);
+	scene::SceneContext context(server);
+	scene::ORMMaterial3D material;
+	CHECK(material.set("metallic", 0.25)); // of no effect here
+	CHECK(material.set("ao_enabled", true));
+	lucent::Material resolved = material.resolve(context);
+	CHECK(resolved.metallic == 1.0f);
+	CHECK(resolved.roughness == 1.0f);
+	CHECK_FALSE(resolved.textures[size_t(TextureSlot::ROUGHNESS)].texture.is_valid());
+	const auto image = std::make_shared<const Image>(Image{ ImageFormat::RGBA8, 1, 1, std::vector<std::byte>(4) });
+	CHECK(material.set("orm_texture", std::make_shared<scene::ImageTexture>(image)));
+	resolved = material.resolve(context);
+	const std::pair<TextureSlot, TextureChannel> expected[] = { { TextureSlot::OCCLUSION, TextureChannel::RED }, { TextureSlot::ROUGHNESS, TextureChannel::GREEN }, { TextureSlot::METALLIC, TextureChannel::BLUE } };
+	for (const std::pair<TextureSlot, TextureChannel> &entry : expected) {
+		CHECK(resolved.textures[size_t(entry.first)].texture.is_valid());
+		CHECK(resolved.textures[size_t(entry.first)].channel == entry.second);
+	}
 }
 
 TEST_CASE("what is left out: README's list is the loaders' list") {
