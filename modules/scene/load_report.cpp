@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_set>
 #include <vector>
 
 namespace lucent::scene {
@@ -24,6 +25,7 @@ struct State {
 	int errors = 0;
 	std::vector<Entry> entries; // by first mention
 	std::map<std::string, size_t> index;
+	std::unordered_set<uint64_t> scripted; // objects that lose a script
 };
 
 State &state() {
@@ -54,6 +56,7 @@ void say_all() {
 	std::vector<Entry> entries = std::move(now.entries);
 	now.entries.clear();
 	now.index.clear();
+	now.scripted.clear();
 	std::stable_sort(entries.begin(), entries.end(), [](const Entry &p_a, const Entry &p_b) { return p_a.effect < p_b.effect; });
 	for (const Entry &entry : entries) {
 		log_message(entry.effect == LeftOutEffect::NONE ? LogLevel::INFO : LogLevel::WARNING, describe(entry));
@@ -94,9 +97,17 @@ void LoadReport::left_out_class(const std::string &p_place, const std::string &p
 	finish();
 }
 
-void LoadReport::left_out_property(const std::string &p_place, const std::string &p_class, const std::string &p_property) {
-	const LeftOutEffect effect = is_property_without_effect(p_class, p_property) ? LeftOutEffect::NONE : LeftOutEffect::LOOK;
-	Entry &entry = mention(fmt::format("property {} {}", int(effect), p_class), { p_place, p_class, effect, nullptr, false, 0, {} });
+void LoadReport::left_out_script(const Object &p_object) {
+	if (state().depth > 0) {
+		state().scripted.insert(p_object.get_instance_id().value);
+	}
+}
+
+void LoadReport::left_out_property(const std::string &p_place, const Object &p_object, const std::string &p_property) {
+	const std::string name = p_object.get_class();
+	const bool is_silent = state().scripted.contains(p_object.get_instance_id().value) || is_property_without_effect(name, p_property);
+	const LeftOutEffect effect = is_silent ? LeftOutEffect::NONE : LeftOutEffect::LOOK;
+	Entry &entry = mention(fmt::format("property {} {}", int(effect), name), { p_place, name, effect, nullptr, false, 0, {} });
 	if (std::find(entry.properties.begin(), entry.properties.end(), p_property) == entry.properties.end()) {
 		entry.properties.push_back(p_property);
 	}

@@ -149,6 +149,7 @@ void set_text_property(Object &r_object, const TscnProperty &p_property, const s
 	}
 	if (p_property.name == "script") {
 		if (const Resource *script = dynamic_cast<const Resource *>(p_property.value.get_object())) { // the first stands for all
+			scene::LoadReport::left_out_script(r_object);
 			const std::string notice = fmt::format("{}: {}", place, gd_script_notice(r_object, *script));
 			if (!scene::LoadReport::warning("script", notice)) {
 				scene::LoadReport::note(notice, notice);
@@ -157,7 +158,7 @@ void set_text_property(Object &r_object, const TscnProperty &p_property, const s
 		return;
 	}
 	if (!r_object.has_property(p_property.name)) {
-		scene::LoadReport::left_out_property(place, r_object.get_class(), p_property.name);
+		scene::LoadReport::left_out_property(place, r_object, p_property.name);
 		return;
 	}
 	if (p_property.value.is_nil() && p_property.name == "sky_material" && r_object.is_class("Sky")) {

@@ -173,6 +173,7 @@ func _process(delta):
 script = ExtResource("1")
 [node name="Door" type="Node3D" parent="."]
 script = ExtResource("2")
+speed = 3.0
 [node name="Inner" type="Node3D" parent="."]
 script = SubResource("3")
 [node name="None" type="Node3D" parent="."]
@@ -180,9 +181,10 @@ script = null
 )"));
 	CHECK(log.count("many.tscn:10: scripts are not run: 'Lamp' loses _ready of lamp.gd; lucent.attach() in Python can replace it (3 times)") == 1);
 	CHECK(log.count("many.tscn:12: scripts are not run: 'Door' loses Door.cs") == 1);
-	CHECK(log.count("many.tscn:14: scripts are not run: 'Inner' loses a script") == 1);
-	CHECK(log.messages.size() == 3);
-	CHECK(log.infos == 2); // all but the first, for --verbose
+	CHECK(log.count("many.tscn:15: scripts are not run: 'Inner' loses a script") == 1);
+	CHECK(log.count("many.tscn:13: Node3D has no property 'speed'") == 1); // the script's
+	CHECK(log.messages.size() == 4);
+	CHECK(log.infos == 3); // all but the first, for --verbose
 	CHECK(log.errors == 0);
 }
 
