@@ -22,6 +22,7 @@ constexpr LeftOutKind KINDS[] = {
 	{ "ShaderMaterial Shader ShaderInclude VisualShader*", LOOK, false, "shaders of one's own" },
 	{ "FogMaterial FogVolume", LOOK, true, "fog" },
 	{ "Decal", LOOK, true, "decals" },
+	{ "AreaLight3D", LOOK, true, "area lights" },
 	{ "ReflectionProbe", LOOK, true, "reflection probes" },
 	{ "AnimatedTexture Gradient GradientTexture1D GradientTexture2D Image PlaceholderTexture2D AtlasTexture CameraTexture CanvasTexture CurveTexture CurveXYZTexture DPITexture DrawableTexture2D ExternalTexture MeshTexture NoiseTexture2D NoiseTexture3D PortableCompressedTexture2D ViewportTexture Texture2DArray Texture3D CompressedTexture2D CompressedTexture3D ImageTexture3D Cubemap", LOOK, false, "textures other than images in files" },
 	{ "CameraAttributes*", LOOK, false, "depth of field and exposure of cameras" },
@@ -90,6 +91,9 @@ bool is_property_without_effect(std::string_view p_class, std::string_view p_pro
 		return true;
 	}
 	if (p_class == "GridMap" && any_matches("cell_octant_size bake_navigation collision_* baked_meshes", p_property)) {
+		return true;
+	}
+	if (p_class == "MeshInstance3D" && p_property == "skeleton") { // without a skin, which is said, it moves nothing
 		return true;
 	}
 	return p_class == "SubViewport" || p_class == "Window" || p_class == "World3D"; // their pictures aren't drawn
