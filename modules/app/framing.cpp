@@ -25,7 +25,7 @@ Framing frame_bounds(const AABB &p_bounds, float p_fov_y_degrees, float p_aspect
 	const Vector3 up = glm::cross(back, right);
 	const float tan_y = std::tan(glm::radians(p_fov_y_degrees) * 0.5f) / MARGIN;
 	const float tan_x = tan_y * p_aspect;
-	const float radius = std::max(0.5f * glm::length(bounds.size()), 1e-3f);
+	const float radius = std::max(0.5f * glm::length(bounds.size()), 1e-9f);
 	float distance = 0.0f; // at which every corner is inside
 	for (int i = 0; i < 8; i++) {
 		const Vector3 half = 0.5f * bounds.size() * Vector3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -35,8 +35,8 @@ Framing frame_bounds(const AABB &p_bounds, float p_fov_y_degrees, float p_aspect
 	distance = std::max(distance, 1.01f * radius);
 	Framing framing;
 	framing.transform = { Basis(right, up, back), bounds.center() + back * distance };
-	framing.near_m = std::clamp(0.1f * (distance - radius), 0.001f, 0.05f);
-	framing.far_m = std::max(4000.0f, 2.0f * (distance + radius));
+	framing.near_m = 0.1f * (distance - radius);
+	framing.far_m = 20.0f * (distance + radius);
 	return framing;
 }
 

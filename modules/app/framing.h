@@ -10,7 +10,7 @@ AABB visible_bounds(const RenderScene &p_scene);
 
 struct Framing {
 	Transform3D transform;
-	float near_m = 0.05f;
+	float near_m = 0.05f; // in proportion to the bounds, as all of it
 	float far_m = 4000.0f;
 };
 // Where a perspective camera stands so that p_bounds just fits into the picture, seen from the front, the right and above.

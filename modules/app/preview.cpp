@@ -52,15 +52,34 @@ static Ref<Resource> preview_environment() {
 	return environment;
 }
 
-void add_preview_environment(scene::Node &r_root) {
+PreviewNodes add_preview_environment(scene::Node &r_root) {
+	PreviewNodes nodes;
 	if (has_node_of<scene::WorldEnvironment>(r_root)) {
-		return; // complete: a lit room needs no second sun
+		return nodes; // complete: a lit room needs no second sun
 	}
-	r_root.create_child<scene::WorldEnvironment>("WorldEnvironment")->set("environment", preview_environment());
+	nodes.environment = r_root.create_child<scene::WorldEnvironment>("WorldEnvironment");
+	nodes.environment->set("environment", preview_environment());
 	if (!has_node_of<scene::DirectionalLight3D>(r_root)) {
-		scene::DirectionalLight3D *sun = r_root.create_child<scene::DirectionalLight3D>("DirectionalLight3D");
-		sun->set_rotation_degrees(Vector3(-60.0f, 150.0f, 0.0f));
-		sun->set("shadow_enabled", true);
+		nodes.sun = r_root.create_child<scene::DirectionalLight3D>("DirectionalLight3D");
+		nodes.sun->set_rotation_degrees(Vector3(-60.0f, 150.0f, 0.0f));
+		nodes.sun->set("shadow_enabled", true);
+	}
+	return nodes;
+}
+
+void fit_preview(const PreviewNodes &p_nodes, const AABB &p_bounds) {
+	// A hundred cells along the radius: as Godot's default of 0.2 m in a building of 40 m. Four cascades then reach over five radii,
+	// so to a camera that frames the scene.
+	static const float CELLS_PER_RADIUS = 100.0f;
+	const float radius = 0.5f * glm::length(p_bounds.size());
+	if (p_bounds.is_empty() || !(radius > 0.0f)) {
+		return;
+	}
+	if (p_nodes.environment != nullptr && p_nodes.environment->get_environment()) {
+		p_nodes.environment->get_environment()->set_sdfgi_min_cell_size(radius / CELLS_PER_RADIUS);
+	}
+	if (p_nodes.sun != nullptr) { // shadow maps end where the scene does
+		p_nodes.sun->set("directional_shadow_max_distance", 100.0f * radius);
 	}
 }
 

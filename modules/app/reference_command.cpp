@@ -136,7 +136,7 @@ int reference(const ReferenceOptions &p_options) {
 	register_modules();
 	RenderingServer server(nullptr);
 	RenderSession session(server);
-	if (const Status status = session.load(p_options.scene.scene); !status) {
+	if (const Status status = session.load(p_options.scene.scene, p_options.scene.strict); !status) {
 		return report(EXIT_BAD_INPUT, status.error());
 	}
 	for (const std::string &setting : p_options.scene.settings) {

@@ -77,6 +77,7 @@ static void declare_options(CLI::App &r_app, ReferenceOptions &r_options, std::s
 			->expected(1)
 			->multi_option_policy(all);
 	r_app.add_flag("--report-throughput", r_options.report_throughput, "print millions of rays a second beside bare rtcIntersect1's on the same rays, write nothing");
+	r_app.add_flag("--strict", r_options.scene.strict, "end with exit code 3 where a part of the scene can't be read, in place of tracing the rest");
 	r_app.add_flag("--quiet", r_options.quiet, "print errors and warnings only");
 }
 

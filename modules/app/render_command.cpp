@@ -146,7 +146,7 @@ int render(const RenderOptions &p_options) {
 	register_modules();
 	RenderingServer server(device.value().get());
 	RenderSession session(server);
-	if (const Status status = session.load(p_options.scene); !status) {
+	if (const Status status = session.load(p_options.scene, p_options.strict); !status) {
 		return report(EXIT_BAD_INPUT, status.error());
 	}
 	for (const std::string &setting : p_options.settings) {

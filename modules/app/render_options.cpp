@@ -137,6 +137,7 @@ static void declare_options(CLI::App &r_app, RenderOptions &r_options, std::stri
 			->type_name("DIR")
 			->multi_option_policy(last);
 	r_app.add_flag("--validation", r_options.validation, "turn Vulkan's validation layers on");
+	r_app.add_flag("--strict", r_options.strict, "end with exit code 3 where a part of the scene can't be read, in place of drawing the rest");
 	r_app.add_flag("--quiet", r_options.quiet, "print errors and warnings only");
 	r_app.add_flag("--verbose", r_options.verbose, "say more on stderr");
 }

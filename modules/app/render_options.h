@@ -25,6 +25,7 @@ struct RenderOptions {
 	std::string reload_shaders; // source root; empty: off
 	bool quiet = false;
 	bool verbose = false;
+	bool strict = false; // a part that can't be read is an error
 	bool validation = false;
 };
 

@@ -6,6 +6,7 @@
 #include "modules/app/property_setting.h"
 #include "modules/app/suggestion.h"
 #include "modules/scene/camera_3d.h"
+#include "modules/scene/load_report.h"
 #include "modules/scene/packed_scene.h"
 #include "modules/scene/resource_loader.h"
 #include "modules/scene/viewport.h"
@@ -20,8 +21,10 @@ RenderSession::~RenderSession() {
 	}
 }
 
-Status RenderSession::load(const std::string &p_path) {
+Status RenderSession::load(const std::string &p_path, bool p_strict) {
 	path = p_path;
+	const scene::LoadReport::Scope report;
+	const int errors_before = scene::LoadReport::error_count();
 	Result<Ref<Resource>> resource = scene::ResourceLoader::load(p_path);
 	if (!resource) {
 		return resource.error();
@@ -34,8 +37,13 @@ Status RenderSession::load(const std::string &p_path) {
 	if (!scene) {
 		return scene.error();
 	}
-	add_preview_environment(*scene.value());
+	if (const int errors = scene::LoadReport::error_count() - errors_before; p_strict && errors > 0) {
+		return make_error("{}: {} {} of the scene can't be read (--strict)", p_path, errors, errors == 1 ? "part" : "parts");
+	}
+	const PreviewNodes preview = add_preview_environment(*scene.value());
 	tree.set_current_scene(scene.take());
+	tree.flush();
+	fit_preview(preview, visible_bounds(server.scenario_snapshot()));
 	return Ok();
 }
 
@@ -93,6 +101,10 @@ Result<CameraRid> RenderSession::choose_camera(const RenderOptions &p_options) {
 		camera = add_framing_camera(root(), bounds, float(p_options.width) / float(p_options.height));
 		tree.flush();
 	}
+	if (scene::find_viewport(*camera) == nullptr) { // what depends on the viewer's place looks from here
+		camera->make_current();
+	}
+	tree.flush();
 	return camera->get_camera_rid();
 }
 

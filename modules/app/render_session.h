@@ -16,8 +16,9 @@ public:
 	RenderSession &operator=(const RenderSession &) = delete;
 
 	// Reads a .tscn, .glb or .gltf. Where it has no WorldEnvironment, adds what Godot's editor shows then: "WorldEnvironment" with a
-	// procedural sky (and SDFGI), and without a DirectionalLight3D also "DirectionalLight3D".
-	Status load(const std::string &p_path);
+	// procedural sky (and SDFGI), and without a DirectionalLight3D also "DirectionalLight3D"; their sizes follow the scene's.
+	// p_strict: a part that can't be read is an error; else it is left out, and said.
+	Status load(const std::string &p_path, bool p_strict = false);
 	// The scene's own root.
 	scene::Node &root() { return *tree.get_current_scene(); }
 	// Chooses the camera (p_options.camera, the scene's current one, its first one, one that frames the scene).

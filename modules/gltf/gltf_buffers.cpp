@@ -48,7 +48,7 @@ const Shape &shape_of(const JsonView &p_type) {
 
 // What p_count elements need in a view of p_view_bytes from p_offset; fails when they are not there.
 void check_extent(const JsonView &p_json, uint64_t p_offset, uint64_t p_count, uint64_t p_stride, uint64_t p_element_bytes, uint64_t p_view_bytes) {
-	const uint64_t needed = p_offset + (p_count - 1) * p_stride + p_element_bytes;
+	const uint64_t needed = p_count == 0 ? 0 : p_offset + (p_count - 1) * p_stride + p_element_bytes;
 	if (needed > p_view_bytes) {
 		p_json.fail("{} elements from byte {} need {} bytes, the buffer view has {}", p_count, p_offset, needed, p_view_bytes);
 	}
@@ -112,7 +112,7 @@ void GltfBuffers::load_buffer(GltfContext &r_context, const JsonView &p_json, bo
 	const JsonView uri = p_json.member("uri");
 	std::span<const std::byte> bytes;
 	if (length == 0) {
-		p_json.member("byteLength").fail("expected at least 1");
+		r_context.warn("{}: the buffer is empty", p_json.get_path());
 	}
 	if (uri.present()) {
 		storage.push_back(r_context.read_uri(uri));
@@ -139,7 +139,7 @@ void GltfBuffers::load_view(GltfContext &r_context, const JsonView &p_json) {
 		return;
 	}
 	if (length == 0) {
-		p_json.member("byteLength").fail("expected at least 1");
+		r_context.warn("{}: the view is empty", p_json.get_path());
 	}
 	const Buffer &source = buffers[size_t(buffer)];
 	if (offset + length > source.length) {
@@ -176,7 +176,7 @@ void GltfBuffers::load_accessor(GltfContext &r_context, const JsonView &p_json) 
 	accessor.normalized = p_json.bool_or("normalized", false);
 	accessor.count = uint32_t(p_json.member("count").to_uint(MAX_COUNT));
 	if (accessor.count == 0) {
-		p_json.member("count").fail("expected at least 1");
+		r_context.warn("{}: the accessor is empty", p_json.get_path());
 	}
 	const int32_t view_index = p_json.index_or_none("bufferView", views.size());
 	const uint64_t offset = p_json.uint_or("byteOffset", 0, MAX_BYTES);
@@ -189,7 +189,7 @@ void GltfBuffers::load_accessor(GltfContext &r_context, const JsonView &p_json) 
 		accessor.stride = view.stride != 0 ? view.stride : accessor.element_bytes;
 		check_extent(p_json, offset, accessor.count, accessor.stride, accessor.element_bytes, view.length);
 		accessor.missing_buffer = view.missing_buffer;
-		accessor.base = view.missing_buffer < 0 ? view.bytes.data() + offset : nullptr;
+		accessor.base = view.missing_buffer < 0 && accessor.count > 0 ? view.bytes.data() + offset : nullptr;
 	}
 	const JsonView sparse = p_json.member("sparse");
 	if (sparse.present()) {
@@ -201,7 +201,7 @@ void GltfBuffers::load_accessor(GltfContext &r_context, const JsonView &p_json) 
 void GltfBuffers::load_sparse(GltfContext &r_context, const JsonView &p_json, GltfAccessor &r_accessor) {
 	const uint32_t count = uint32_t(p_json.member("count").to_uint(r_accessor.count));
 	if (count == 0) {
-		p_json.member("count").fail("expected at least 1");
+		return;
 	}
 	const JsonView indices = p_json.member("indices");
 	const JsonView type = indices.member("componentType");

@@ -30,10 +30,19 @@ struct GltfContext {
 
 	template <typename... Args>
 	void warn(fmt::format_string<Args...> p_format, Args &&...p_args) {
-		std::string message = fmt::format("{}: {}", name, fmt::format(p_format, std::forward<Args>(p_args)...));
+		add_message(document.warnings, fmt::format("{}: {}", name, fmt::format(p_format, std::forward<Args>(p_args)...)));
+	}
+
+	// A part that is left out because it can't be read.
+	template <typename... Args>
+	void report_error(fmt::format_string<Args...> p_format, Args &&...p_args) {
+		add_message(document.errors, fmt::format("{}: {}", name, fmt::format(p_format, std::forward<Args>(p_args)...)));
+	}
+
+	static void add_message(std::vector<std::string> &r_messages, std::string p_message) {
 		// A broken file may warn about each of its million elements; a person reads the first few.
-		if (document.warnings.size() < 100 && std::find(document.warnings.begin(), document.warnings.end(), message) == document.warnings.end()) {
-			document.warnings.push_back(std::move(message));
+		if (r_messages.size() < 100 && std::find(r_messages.begin(), r_messages.end(), p_message) == r_messages.end()) {
+			r_messages.push_back(std::move(p_message));
 		}
 	}
 

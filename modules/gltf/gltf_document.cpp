@@ -16,7 +16,7 @@ constexpr uint32_t GLB_MAGIC = 0x46546C67; // "glTF"
 constexpr uint32_t GLB_JSON = 0x4E4F534A;
 constexpr uint32_t GLB_BIN = 0x004E4942;
 
-constexpr const char *SUPPORTED_EXTENSIONS[] = { "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing" };
+constexpr const char *SUPPORTED_EXTENSIONS[] = { "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_dispersion", "KHR_materials_diffuse_transmission", "KHR_materials_pbrSpecularGlossiness", "EXT_texture_webp", "KHR_texture_basisu", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "GODOT_single_root" };
 
 constexpr const char *SILENT_EXTENSIONS[] = { "KHR_xmp", "KHR_xmp_json_ld" }; // say nothing about the picture
 
@@ -128,6 +128,7 @@ void check_extensions(GltfContext &r_context) {
 	const JsonView used = r_context.root.member("extensionsUsed");
 	for (size_t i = 0; i < used.array_size(); i++) {
 		const std::string extension = used.element(i).to_string();
+		r_context.document.has_single_root = r_context.document.has_single_root || extension == "GODOT_single_root";
 		if (!is_in(SUPPORTED_EXTENSIONS, extension) && !is_in(SILENT_EXTENSIONS, extension)) {
 			r_context.warn("the extension '{}' is not supported and left out", extension);
 		}
@@ -184,6 +185,7 @@ void parse_checked(GltfContext &r_context) {
 	load_materials(r_context, buffers);
 	std::vector<GltfRawMesh> meshes = load_meshes(r_context, buffers);
 	const GltfPoses poses = load_nodes(r_context, buffers, meshes);
+	find_skeletons(r_context, poses);
 	pose_meshes(r_context, std::move(meshes), poses);
 	if (r_context.root.member("animations").array_size() > 0) {
 		r_context.warn("animations are not played");
@@ -202,7 +204,12 @@ std::vector<std::byte> GltfContext::read_uri(const JsonView &p_uri) {
 		charge(uri.size(), 1, p_uri);
 		return decode_base64(p_uri, std::string_view(uri).substr(comma + 1));
 	}
-	const std::string decoded = decode_percent(uri);
+	std::string decoded = decode_percent(uri);
+	if (decoded.find('\\') != std::string::npos) {
+		// Windows paths, as some exporters write them; no file of this format's own has such a character in its name.
+		warn("{}: '{}' has backslashes where a URI has slashes", p_uri.get_path(), decoded);
+		std::replace(decoded.begin(), decoded.end(), '\\', '/');
+	}
 	if (decoded.empty() || decoded[0] == '/' || decoded.find(':') < decoded.find('/') || decoded.find('\0') != std::string::npos) {
 		p_uri.fail("expected a relative path or data:, found '{}'", uri.substr(0, 200));
 	}

@@ -84,6 +84,15 @@ struct GltfNode {
 	int32_t mesh = -1;
 	int32_t light = -1;
 	int32_t camera = -1;
+	int32_t skeleton = -1; // in skeletons: the node is a bone of it
+	int32_t bone = -1; // its place in that skeleton's bones
+	int32_t skin_skeleton = -1; // the node's mesh is posed by this skeleton and stands in its space, not in the node's
+};
+
+// The joints of skins that hang together, and the nodes between them.
+struct GltfSkeleton {
+	std::vector<int32_t> bones; // nodes, parents first
+	int32_t parent = -1; // node whose space it stands in; -1: the scene's
 };
 
 struct GltfSceneRoots {
@@ -99,9 +108,12 @@ struct GltfDocument {
 	std::vector<GltfLight> lights;
 	std::vector<GltfCamera> cameras;
 	std::vector<GltfNode> nodes;
+	std::vector<GltfSkeleton> skeletons;
+	bool has_single_root = false; // GODOT_single_root: a scene's only node is the root, not a child of it
 	std::vector<GltfSceneRoots> scenes; // never empty: a file without scenes gets one with all root nodes
 	int32_t default_scene = 0;
 	std::vector<std::string> warnings; // "box.gltf: …", each once
+	std::vector<std::string> errors; // parts that could not be read, as warnings
 };
 
 struct GltfLimits {

@@ -13,6 +13,9 @@ DracoAttribute read_attribute(const draco::Mesh &p_mesh, const draco::PointAttri
 	if (attribute.components == 0 || attribute.components > 4) {
 		p_id.fail("expected 1 to 4 components, found {}", attribute.components);
 	}
+	if (p_attribute.data_type() == draco::DT_BOOL) { // Draco reads any byte as one, which C++ leaves undefined
+		p_id.fail("expected numbers, found booleans");
+	}
 	if (!p_attribute.normalized()) {
 		attribute.integer_max = p_attribute.data_type() == draco::DT_UINT8 ? 255.0f : p_attribute.data_type() == draco::DT_UINT16 ? 65535.0f
 																																  : 0.0f;

@@ -53,6 +53,9 @@ GltfPoses load_nodes(GltfContext &r_context, const GltfBuffers &p_buffers, std::
 void load_lights(GltfContext &r_context);
 void load_cameras(GltfContext &r_context);
 
+// Fills document.skeletons, and what nodes say of them.
+void find_skeletons(GltfContext &r_context, const GltfPoses &p_poses);
+
 // Fills document.meshes; a node whose skin or weights change its mesh gets one of its own.
 void pose_meshes(GltfContext &r_context, std::vector<GltfRawMesh> p_meshes, const GltfPoses &p_poses);
 

@@ -2,6 +2,8 @@
 // Images, textures and materials. An image that cannot be read is a warning: the scene still renders without it.
 #include "modules/gltf/gltf_loader.h"
 
+#include "modules/gltf/gltf_specular_glossiness.h"
+
 #include "modules/image/image_io.h"
 
 namespace lucent {
@@ -27,6 +29,9 @@ private:
 	void load_metallic_roughness(const JsonView &p_json, GltfMaterial &r_material);
 	void load_specular(const JsonView &p_json, GltfMaterial &r_material);
 	void load_alpha(const JsonView &p_json, GltfMaterial &r_material);
+	void load_specular_glossiness(const JsonView &p_json, GltfMaterial &r_material);
+	void warn_approximated(const JsonView &p_json);
+	int32_t choose_image(const JsonView &p_texture);
 
 	GltfContext &context;
 	const GltfBuffers &buffers;
@@ -53,12 +58,12 @@ void MaterialLoader::load_image(size_t p_index) {
 			bytes = buffers.view(json.member("bufferView").to_index(buffers.view_count())).bytes;
 		}
 	} catch (const GltfFailure &failure) {
-		context.warn("{}; the texture is left out", failure.message);
+		context.report_error("{}; the texture is left out", failure.message);
 		return;
 	}
 	Result<Image> image = load_image_from_memory(bytes, uri.present() && !uri.to_string().starts_with("data:") ? uri.to_string() : json.get_path());
 	if (!image) {
-		context.warn("{}; the texture is left out", image.error().message);
+		context.report_error("{}; the texture is left out", image.error().message);
 		return;
 	}
 	context.charge(image.value().texels.size(), 1, json);
@@ -84,6 +89,26 @@ void MaterialLoader::load_sampler(const JsonView &p_texture, GltfTextureRef &r_r
 	r_ref.filter = nearest ? (mipmaps ? TextureFilter::NEAREST_MIPMAPS : TextureFilter::NEAREST) : (mipmaps ? TextureFilter::LINEAR_MIPMAPS : TextureFilter::LINEAR);
 }
 
+// The first that can be read, loaded: the WebP, else what every reader knows. -1: none.
+int32_t MaterialLoader::choose_image(const JsonView &p_texture) {
+	const JsonView basis = p_texture.extension("KHR_texture_basisu");
+	const int32_t sources[] = { p_texture.extension("EXT_texture_webp").index_or_none("source", json_images.array_size()), p_texture.index_or_none("source", json_images.array_size()) };
+	for (const int32_t source : sources) {
+		if (source >= 0) {
+			load_image(size_t(source));
+			if (context.document.images[size_t(source)].image) {
+				return source;
+			}
+		}
+	}
+	if (basis.present()) {
+		context.warn("textures of KHR_texture_basisu are not read; factors alone give the colour where a texture has no other source");
+	} else if (sources[0] < 0 && sources[1] < 0) {
+		context.warn("{}: the texture has no source and is left out", p_texture.get_path());
+	}
+	return -1;
+}
+
 GltfTextureRef MaterialLoader::load_texture(const JsonView &p_info) {
 	GltfTextureRef ref;
 	if (!p_info.present()) {
@@ -91,12 +116,10 @@ GltfTextureRef MaterialLoader::load_texture(const JsonView &p_info) {
 	}
 	const JsonView texture = json_textures.element(size_t(p_info.member("index").to_index(json_textures.array_size())));
 	load_sampler(texture, ref);
-	const int32_t image = texture.index_or_none("source", json_images.array_size());
+	const int32_t image = choose_image(texture);
 	if (image < 0) {
-		context.warn("{}: the texture has no PNG or JPEG source and is left out", texture.get_path());
 		return {};
 	}
-	load_image(size_t(image));
 	if (!context.document.images[size_t(image)].image) {
 		return {};
 	}
@@ -166,11 +189,59 @@ void MaterialLoader::load_alpha(const JsonView &p_json, GltfMaterial &r_material
 	}
 }
 
+void MaterialLoader::load_specular_glossiness(const JsonView &p_json, GltfMaterial &r_material) {
+	if (!p_json.present()) {
+		return;
+	}
+	SpecularGlossiness source;
+	float color[4];
+	if (p_json.floats("diffuseFactor", color)) {
+		source.diffuse = glm::clamp(Vector4(color[0], color[1], color[2], color[3]), Vector4(0.0f), Vector4(1.0f));
+	}
+	source.specular = glm::clamp(p_json.vector3_or("specularFactor", Vector3(1.0f)), Vector3(0.0f), Vector3(1.0f));
+	source.glossiness = p_json.float_in("glossinessFactor", 1.0f, 0.0f, 1.0f);
+	r_material.base_color_texture = load_texture(p_json.member("diffuseTexture"));
+	const GltfTextureRef specular = load_texture(p_json.member("specularGlossinessTexture"));
+	if (specular.image < 0) {
+		const MetallicRoughness made = to_metallic_roughness(source.diffuse, source.specular, source.glossiness);
+		r_material.base_color = Vector4(made.base_color, source.diffuse.a);
+		r_material.metallic = r_material.base_color_texture.image < 0 ? made.metallic : 0.0f; // the texture is the diffuse colour
+		r_material.roughness = made.roughness;
+		r_material.base_color = r_material.base_color_texture.image < 0 ? r_material.base_color : source.diffuse;
+		return;
+	}
+	std::vector<GltfImage> &images = context.document.images;
+	const std::shared_ptr<const Image> diffuse = r_material.base_color_texture.image < 0 ? nullptr : images[size_t(r_material.base_color_texture.image)].image;
+	const Image &packed = *images[size_t(specular.image)].image;
+	context.charge(uint64_t(std::max(packed.width, diffuse ? diffuse->width : 0)) * std::max(packed.height, diffuse ? diffuse->height : 0), 8, p_json);
+	MetallicRoughnessImages made = to_metallic_roughness_images(source, diffuse, packed);
+	r_material.base_color_texture = r_material.base_color_texture.image < 0 ? specular : r_material.base_color_texture;
+	r_material.metallic_roughness_texture = specular;
+	r_material.base_color_texture.image = int32_t(images.size());
+	images.push_back({ r_material.name + " base colour", std::make_shared<const Image>(std::move(made.base_color)) });
+	r_material.metallic_roughness_texture.image = int32_t(images.size());
+	images.push_back({ r_material.name + " metallic roughness", std::make_shared<const Image>(std::move(made.metallic_roughness)) });
+	r_material.base_color = Vector4(1.0f);
+	r_material.metallic = 1.0f;
+	r_material.roughness = 1.0f;
+}
+
+void MaterialLoader::warn_approximated(const JsonView &p_json) {
+	static constexpr const char *EXTENSIONS[] = { "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_volume", "KHR_materials_dispersion", "KHR_materials_diffuse_transmission" };
+	for (const char *extension : EXTENSIONS) {
+		if (p_json.extension(extension).present()) {
+			context.warn("{} is left out: its materials show their base layer", extension);
+		}
+	}
+}
+
 GltfMaterial MaterialLoader::load_material(const JsonView &p_json) {
 	GltfMaterial material;
 	material.name = p_json.string_or("name", "");
 	load_metallic_roughness(p_json.member("pbrMetallicRoughness"), material);
 	load_specular(p_json, material);
+	load_specular_glossiness(p_json.extension("KHR_materials_pbrSpecularGlossiness"), material);
+	warn_approximated(p_json);
 	load_alpha(p_json, material);
 	const JsonView normal = p_json.member("normalTexture");
 	material.normal_texture = load_texture(normal);

@@ -22,9 +22,9 @@ void apply_morph_targets(const GltfRawPrimitive &p_raw, std::span<const float> p
 	}
 }
 
-// Skin matrices (glTF 2.0, 3.7.3.3) relative to the node that shows the mesh. Empty when they cannot be made.
-std::vector<glm::mat4> skin_matrices(const std::vector<Transform3D> &p_globals, const GltfSkin &p_skin, size_t p_node) {
-	const Transform3D &node = p_globals[p_node];
+// Skin matrices (glTF 2.0, 3.7.3.3) relative to the node that p_space is of, or the scene (-1). Empty when they cannot be made.
+std::vector<glm::mat4> skin_matrices(const std::vector<Transform3D> &p_globals, const GltfSkin &p_skin, int32_t p_space) {
+	const Transform3D node = p_space < 0 ? Transform3D() : p_globals[size_t(p_space)];
 	if (!(std::abs(glm::determinant(node.basis)) > 1e-20f)) {
 		return {};
 	}
@@ -150,7 +150,7 @@ void pose_meshes(GltfContext &r_context, std::vector<GltfRawMesh> p_meshes, cons
 		if (pose.skin >= 0) {
 			r_context.warn("skins are shown in the pose that the file stands in");
 			r_context.charge(p_poses.skins[size_t(pose.skin)].joints.size(), sizeof(glm::mat4), JsonView(nullptr, fmt::format("/nodes/{}", i)));
-			matrices = skin_matrices(globals, p_poses.skins[size_t(pose.skin)], i);
+			matrices = skin_matrices(globals, p_poses.skins[size_t(pose.skin)], node.skin_skeleton < 0 ? int32_t(i) : document.skeletons[size_t(node.skin_skeleton)].parent);
 		}
 		document.meshes.push_back(pose_mesh(r_context, mesh, pose.weights.empty() ? mesh.weights : pose.weights, matrices));
 		node.mesh = int32_t(document.meshes.size()) - 1;

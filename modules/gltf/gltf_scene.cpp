@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "modules/gltf/gltf_scene.h"
 
-#include "modules/scene/camera_3d.h"
-#include "modules/scene/light_3d.h"
+#include "modules/gltf/gltf_tree.h"
+#include "modules/scene/load_report.h"
 #include "modules/scene/resource_loader.h"
 #include "servers/core/file_io.h"
-
-#include <map>
-#include <set>
 
 namespace lucent {
 
@@ -18,13 +15,6 @@ using namespace scene;
 Color encode_color(const Vector3 &p_linear, float p_alpha = 1.0f) {
 	return { linear_to_srgb(p_linear.x), linear_to_srgb(p_linear.y), linear_to_srgb(p_linear.z), p_alpha };
 }
-
-// What copies of a scene share.
-struct GltfResources {
-	std::vector<Ref<Texture2D>> textures; // by image
-	std::vector<Ref<scene::Material>> materials;
-	std::vector<Ref<ArrayMesh>> meshes;
-};
 
 void set_texture(const GltfResources &p_resources, const GltfTextureRef &p_ref, TextureSlot p_slot, BaseMaterial3D::State &r_state, Ref<Texture2D> &r_texture) {
 	if (p_ref.image < 0) {
@@ -92,6 +82,14 @@ Ref<scene::Material> make_material(const GltfResources &p_resources, const GltfM
 	state.vertex_color_use_as_albedo = p_material.uses_vertex_colors;
 	const Ref<StandardMaterial3D> material = std::make_shared<StandardMaterial3D>();
 	material->set_name(p_material.name);
+	if (has_name_hint(p_material.name, "alpha")) {
+		state.transparency = MaterialTransparency::ALPHA;
+		material->set_name(without_name_hint(p_material.name, "alpha"));
+	}
+	if (has_name_hint(p_material.name, "vcol")) {
+		state.vertex_color_use_as_albedo = true;
+		material->set_name(without_name_hint(p_material.name, "vcol"));
+	}
 	material->set_state(state);
 	return material;
 }
@@ -119,119 +117,17 @@ GltfResources make_resources(GltfDocument &r_document) {
 	return resources;
 }
 
-std::unique_ptr<Light3D> make_light(const GltfLight &p_light) {
-	std::unique_ptr<Light3D> light;
-	switch (p_light.light.type) {
-		case LightType::DIRECTIONAL:
-			light = std::make_unique<DirectionalLight3D>();
-			break;
-		case LightType::OMNI:
-			light = std::make_unique<OmniLight3D>();
-			break;
-		case LightType::SPOT:
-			light = std::make_unique<SpotLight3D>();
-			break;
-	}
-	// The colour property ends at 1; the energy carries the rest.
-	const Vector3 &color = p_light.light.color;
-	const float brightest = std::max({ color.x, color.y, color.z, 1.0f });
-	lucent::Light parameters = p_light.light;
-	parameters.energy *= brightest;
-	light->set_parameters(parameters);
-	light->set_color(encode_color(color / brightest));
-	return light;
-}
-
-std::unique_ptr<Camera3D> make_camera(const GltfCamera &p_camera) {
-	std::unique_ptr<Camera3D> camera = std::make_unique<Camera3D>();
-	camera->parameters = p_camera.camera;
-	camera->state_changed();
-	return camera;
-}
-
-// Makes one copy of the scene.
-class NodeBuilder {
-public:
-	NodeBuilder(const GltfDocument &p_document, const GltfResources &p_resources) :
-			document(p_document), resources(p_resources) {}
-
-	std::unique_ptr<Node> build(const GltfSceneRoots &p_scene, const std::string &p_name) {
-		std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
-		root->set_name(unique_name(p_scene.name.empty() ? p_name : p_scene.name));
-		for (const int32_t index : p_scene.nodes) {
-			add_node(*root, *root, index);
-		}
-		return root;
-	}
-
-private:
-	std::string unique_name(const std::string &p_wanted) {
-		std::string name = p_wanted;
-		for (char &c : name) {
-			c = std::string_view(".:@/\"%").find(c) == std::string_view::npos ? c : '_';
-		}
-		const std::string base = name;
-		for (int number = next_numbers.count(base) ? next_numbers[base] : 2; !names.insert(name).second; number++) {
-			name = base + std::to_string(number);
-			next_numbers[base] = number + 1;
-		}
-		return name;
-	}
-
-	// The node itself is the first of mesh, camera and light that it has; the others become children.
-	void add_node(Node3D &r_root, Node3D &r_parent, int32_t p_index) {
-		const GltfNode &node = document.nodes[size_t(p_index)];
-		std::vector<std::unique_ptr<Node3D>> parts;
-		const char *fallback = "Node";
-		if (node.light >= 0) {
-			parts.push_back(make_light(document.lights[size_t(node.light)]));
-			fallback = "Light";
-		}
-		if (node.camera >= 0) {
-			parts.push_back(make_camera(document.cameras[size_t(node.camera)]));
-			fallback = "Camera";
-		}
-		if (node.mesh >= 0) {
-			std::unique_ptr<MeshInstance3D> instance = std::make_unique<MeshInstance3D>();
-			instance->set_mesh(resources.meshes[size_t(node.mesh)]);
-			parts.push_back(std::move(instance));
-			fallback = "Mesh";
-		}
-		if (parts.empty()) {
-			parts.push_back(std::make_unique<Node3D>());
-		}
-		const std::string name = unique_name(node.name.empty() ? fallback : node.name);
-		parts.back()->set_name(name);
-		parts.back()->set_transform(node.transform);
-		Node3D *made = r_parent.add(std::move(parts.back()));
-		made->set_owner(&r_root);
-		parts.pop_back();
-		for (std::unique_ptr<Node3D> &part : parts) {
-			part->set_name(unique_name(name + "_" + part->get_class()));
-			made->add(std::move(part))->set_owner(&r_root);
-		}
-		for (const int32_t child : node.children) {
-			add_node(r_root, *made, child);
-		}
-	}
-
-	const GltfDocument &document;
-	const GltfResources &resources;
-	std::set<std::string> names;
-	std::map<std::string, int> next_numbers;
-};
-
 } // namespace
 
-Result<Ref<scene::PackedScene>> gltf_to_scene(GltfDocument p_document, const std::string &p_name, int32_t p_scene) {
+Result<Ref<scene::PackedScene>> gltf_to_scene(GltfDocument p_document, const std::string &p_name, int32_t p_scene, const GltfImportSettings &p_settings) {
 	const int32_t index = p_scene < 0 ? p_document.default_scene : p_scene;
 	if (size_t(index) >= p_document.scenes.size()) {
 		return make_error("{}: expected a scene from 0 to {}, found {}", p_name, p_document.scenes.size() - 1, index);
 	}
 	const std::shared_ptr<GltfDocument> document = std::make_shared<GltfDocument>(std::move(p_document));
 	const std::shared_ptr<const GltfResources> resources = std::make_shared<const GltfResources>(make_resources(*document));
-	const Ref<PackedScene> packed = std::make_shared<PackedScene>([document, resources, index, p_name]() -> Result<std::unique_ptr<Node>> {
-		return NodeBuilder(*document, *resources).build(document->scenes[size_t(index)], p_name);
+	const Ref<PackedScene> packed = std::make_shared<PackedScene>([document, resources, index, p_name, p_settings]() -> Result<std::unique_ptr<Node>> {
+		return build_gltf_tree(*document, *resources, document->scenes[size_t(index)], p_name, p_settings);
 	});
 	return packed;
 }
@@ -244,9 +140,12 @@ Result<Ref<scene::PackedScene>> load_gltf_scene(const std::string &p_path, int32
 	for (const std::string &warning : document.value().warnings) {
 		log_message(LogLevel::WARNING, warning);
 	}
+	for (const std::string &error : document.value().errors) {
+		LoadReport::error(error);
+	}
 	std::string name = p_path.substr(path_folder(p_path).size());
 	name = name.substr(0, name.rfind('.'));
-	Result<Ref<PackedScene>> packed = gltf_to_scene(document.take(), name, p_scene);
+	Result<Ref<PackedScene>> packed = gltf_to_scene(document.take(), name, p_scene, load_gltf_import_settings(p_path));
 	if (packed) {
 		packed.value()->set_path(p_path);
 	}

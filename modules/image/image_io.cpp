@@ -2,15 +2,15 @@
 #include "modules/image/image_io.h"
 
 #include "modules/image/hdr_io.h"
-#include "modules/image/jpeg_check.h"
+#include "modules/image/packed_images.h"
 #include "servers/core/file_io.h"
 
-#include <climits>
+#include <algorithm>
 #include <cstring>
 
 #define STBI_MAX_DIMENSIONS 32768
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_BMP
 #define STBI_NO_HDR
 #define STBI_NO_LINEAR
 #define STBI_NO_STDIO
@@ -34,23 +34,54 @@ bool begins_with(std::span<const std::byte> p_bytes, std::string_view p_magic) {
 	return p_bytes.size() >= p_magic.size() && std::memcmp(p_bytes.data(), p_magic.data(), p_magic.size()) == 0;
 }
 
-Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::string &p_name, const char *p_kind) {
-	if (p_bytes.size() > INT_MAX) {
-		return make_error("{}: {} bytes are more than the limit of {}", p_name, p_bytes.size(), INT_MAX);
+// Bytes for stb_image, which takes zeros where they end: that it asked for more is the only sign.
+struct StbSource {
+	std::span<const std::byte> bytes;
+	size_t position = 0;
+	const char *buffer = nullptr; // stb's own, which it fills with what there is; other places must get what they ask for
+	bool past_end = false;
+
+	static int read(void *p_source, char *r_data, int p_size) {
+		StbSource &source = *static_cast<StbSource *>(p_source);
+		source.buffer = source.buffer ? source.buffer : r_data;
+		const size_t count = std::min(size_t(p_size), source.bytes.size() - source.position);
+		source.past_end = source.past_end || (r_data == source.buffer ? count == 0 : count < size_t(p_size));
+		std::copy_n(reinterpret_cast<const char *>(source.bytes.data()) + source.position, count, r_data);
+		source.position += count;
+		return int(count);
 	}
-	const stbi_uc *bytes = reinterpret_cast<const stbi_uc *>(p_bytes.data());
-	const int size = int(p_bytes.size());
+	static void skip(void *p_source, int p_count) {
+		StbSource &source = *static_cast<StbSource *>(p_source);
+		const int64_t wanted = int64_t(source.position) + p_count;
+		source.position = size_t(std::clamp<int64_t>(wanted, 0, int64_t(source.bytes.size())));
+	}
+	static int at_end(void *p_source) {
+		const StbSource &source = *static_cast<const StbSource *>(p_source);
+		return source.position == source.bytes.size();
+	}
+};
+
+constexpr stbi_io_callbacks STB_CALLBACKS = { StbSource::read, StbSource::skip, StbSource::at_end };
+constexpr uint64_t MAX_TEXELS_A_BYTE = 128; // run lengths of TGA
+
+Result<Image> load_with_stb(std::span<const std::byte> p_bytes, const std::string &p_name, const char *p_kind) {
 	int width = 0, height = 0, channels = 0;
-	if (!stbi_info_from_memory(bytes, size, &width, &height, &channels) || width <= 0 || height <= 0) {
+	StbSource header{ p_bytes };
+	if (!stbi_info_from_callbacks(&STB_CALLBACKS, &header, &width, &height, &channels) || width <= 0 || height <= 0) {
 		return make_error("{}: broken {} header ({})", p_name, p_kind, stbi_failure_reason());
 	}
-	if (uint32_t(width) > MAX_IMAGE_SIDE_TEXELS || uint32_t(height) > MAX_IMAGE_SIDE_TEXELS || uint64_t(width) * uint64_t(height) > MAX_IMAGE_TEXELS) {
-		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, width, height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	if (const Status status = check_image_size(uint64_t(width), uint64_t(height), p_name); !status) {
+		return status.error();
+	}
+	if (uint64_t(width) * uint64_t(height) > MAX_TEXELS_A_BYTE * p_bytes.size()) {
+		return make_error("{}: truncated {} data: {} bytes can't hold {} x {} texels", p_name, p_kind, p_bytes.size(), width, height);
 	}
 	Image image;
-	stbi_uc *texels = stbi_load_from_memory(bytes, size, &width, &height, &channels, 4);
-	if (!texels) {
-		return make_error("{}: broken or truncated {} data ({})", p_name, p_kind, stbi_failure_reason());
+	StbSource source{ p_bytes };
+	stbi_uc *texels = stbi_load_from_callbacks(&STB_CALLBACKS, &source, &width, &height, &channels, 4);
+	if (!texels || source.past_end) {
+		stbi_image_free(texels);
+		return make_error("{}: broken or truncated {} data ({})", p_name, p_kind, texels ? "the file ends too early" : stbi_failure_reason());
 	}
 	image.width = uint32_t(width);
 	image.height = uint32_t(height);
@@ -117,16 +148,32 @@ Result<Image> load_exr(std::span<const std::byte> p_bytes, const std::string &p_
 
 } // namespace
 
+Status check_image_size(uint64_t p_width, uint64_t p_height, const std::string &p_name, uint64_t p_bytes) {
+	static constexpr uint64_t MOST_TEXELS_A_BYTE = 16384;
+	if (p_width == 0 || p_height == 0) {
+		return make_error("{}: the image is empty: {} x {} texels", p_name, p_width, p_height);
+	}
+	if (p_width > MAX_IMAGE_SIDE_TEXELS || p_height > MAX_IMAGE_SIDE_TEXELS || p_width * p_height > MAX_IMAGE_TEXELS) {
+		return make_error("{}: {} x {} texels are more than the limit of {} a side and {} in all", p_name, p_width, p_height, MAX_IMAGE_SIDE_TEXELS, MAX_IMAGE_TEXELS);
+	}
+	if (p_width * p_height / MOST_TEXELS_A_BYTE > p_bytes) {
+		return make_error("{}: broken or truncated: {} bytes can't hold {} x {} texels", p_name, p_bytes, p_width, p_height);
+	}
+	return Ok();
+}
+
 Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const std::string &p_name) {
 	if (p_bytes.empty()) {
-		return make_error("{}: the file is empty, expected a PNG, JPEG, HDR or EXR image", p_name);
+		return make_error("{}: the file is empty, expected a PNG, JPEG, WebP, TGA, BMP, HDR or EXR image", p_name);
 	}
 	if (begins_with(p_bytes, "\x89PNG")) {
-		return load_with_stb(p_bytes, p_name, "PNG");
+		return load_png(p_bytes, p_name);
 	}
 	if (begins_with(p_bytes, "\xff\xd8\xff")) {
-		const char *fault = find_jpeg_fault(p_bytes);
-		return fault == nullptr ? load_with_stb(p_bytes, p_name, "JPEG") : make_error("{}: broken or truncated JPEG data ({})", p_name, fault);
+		return load_jpeg(p_bytes, p_name);
+	}
+	if (begins_with(p_bytes, "RIFF") && p_bytes.size() >= 12 && begins_with(p_bytes.subspan(8), "WEBP")) {
+		return load_webp(p_bytes, p_name);
 	}
 	if (begins_with(p_bytes, "#?RADIANCE") || begins_with(p_bytes, "#?RGBE")) {
 		return load_hdr(p_bytes, p_name);
@@ -134,7 +181,13 @@ Result<Image> load_image_from_memory(std::span<const std::byte> p_bytes, const s
 	if (begins_with(p_bytes, "\x76\x2f\x31\x01")) {
 		return load_exr(p_bytes, p_name);
 	}
-	return make_error("{}: expected a PNG, JPEG, HDR or EXR image, found another kind of file", p_name);
+	if (begins_with(p_bytes, "BM")) {
+		return load_with_stb(p_bytes, p_name, "BMP");
+	}
+	if (path_extension(p_name) == "tga") { // the one kind without a mark of its own
+		return load_with_stb(p_bytes, p_name, "TGA");
+	}
+	return make_error("{}: expected a PNG, JPEG, WebP, TGA, BMP, HDR or EXR image, found another kind of file", p_name);
 }
 
 Result<Image> load_image(const std::string &p_path) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Image files. Reads PNG, JPEG, Radiance HDR and OpenEXR; writes PNG and OpenEXR. The kind is told by the first bytes, never by
-// the name. Rows run from the top. Errors read "file: what was expected". Output repeats bit for bit.
+// Image files. Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR and OpenEXR; writes PNG and OpenEXR. The kind is told by the first
+// bytes, and only a TGA, which has no mark, by its name. Rows run from the top. Errors read "file: what was expected". Output repeats bit for bit.
 
 #include "servers/core/error.h"
 #include "servers/core/image.h"
@@ -17,7 +17,7 @@ namespace lucent {
 inline constexpr uint32_t MAX_IMAGE_SIDE_TEXELS = 32768;
 inline constexpr uint64_t MAX_IMAGE_TEXELS = uint64_t(1) << 27;
 
-// PNG and JPEG become RGBA8 (16-bit PNGs lose their low byte), HDR and EXR become RGBA32F, alpha 1 where the file has none.
+// PNG, JPEG, WebP, TGA and BMP become RGBA8 (16-bit PNGs are rounded), HDR and EXR become RGBA32F, alpha 1 where the file has none.
 // An EXR without plain R, G, B shows its Y (grey) or the first layer that has R, G, B ("Combined.R").
 Result<Image> load_image(const std::string &p_path);
 

@@ -90,11 +90,11 @@ void Camera3D::bind(ClassBuilder<Camera3D> &r_class) {
 	r_class.field("v_offset", &Camera3D::offset, &Offset::vertical).doc("Moves the eye up, in metres.");
 	r_class.field("projection", P, &Camera::kind).enum_of("ProjectionType").doc("The kind of projection.");
 	r_class.property("current", &Camera3D::set_current, &Camera3D::is_current).doc("Whether this camera shows.");
-	r_class.field("fov", P, &Camera::fov_degrees).range(1, 179, 0.1).doc("The angle of view, in degrees.");
-	r_class.field("size", P, &Camera::size_m).range(0.001, 100, 0.001).or_greater().doc("Size of an orthogonal view, or of a frustum's near plane, in metres.");
+	r_class.field("fov", P, &Camera::fov_degrees).range(1, 179, 0.1).enforced().doc("The angle of view, in degrees.");
+	r_class.field("size", P, &Camera::size_m).range(1e-6, 100, 1e-6).or_greater().enforced().doc("Size of an orthogonal view, or of a frustum's near plane, in metres.");
 	r_class.field("frustum_offset", P, &Camera::frustum_offset).doc("Moves a frustum's near plane, in metres.");
-	r_class.field("near", P, &Camera::near_m).range(0.001, 10, 0.001).or_greater().doc("The nearest that is drawn, in metres.");
-	r_class.field("far", P, &Camera::far_m).range(0.01, 4000, 0.01).or_greater().doc("The farthest that is drawn, in metres.");
+	r_class.field("near", P, &Camera::near_m).range(1e-7, 10, 1e-7).or_greater().enforced().doc("The nearest that is drawn, in metres.");
+	r_class.field("far", P, &Camera::far_m).range(1e-6, 4000, 1e-6).or_greater().enforced().doc("The farthest that is drawn, in metres.");
 	r_class.method("make_current", &Camera3D::make_current).doc("Lets this camera show.");
 	r_class.method("get_camera_transform", &Camera3D::get_camera_transform).doc("The eye's place in the world, offsets included.");
 }

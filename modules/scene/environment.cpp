@@ -17,7 +17,7 @@ void Environment::set_sdfgi_cascades(int p_cascades) {
 }
 
 void Environment::set_sdfgi_min_cell_size(float p_size_m) {
-	sdfgi.min_cell_size_m = std::clamp(p_size_m, 0.01f, 64.0f);
+	sdfgi.min_cell_size_m = std::clamp(p_size_m, 1e-6f, 1e6f);
 	state_changed();
 }
 
@@ -106,11 +106,11 @@ static void bind_sdfgi(ClassBuilder<Environment> &r_class) {
 	r_class.field("sdfgi_enabled", G, &SdfgiSettings::enabled).doc("Whether signed distance field global illumination runs.");
 	r_class.field("sdfgi_use_occlusion", G, &SdfgiSettings::use_occlusion).doc("Weighs probes by what they see of a point, so that light does not leak through walls; on by default, unlike in Godot.");
 	r_class.field("sdfgi_read_sky_light", G, &SdfgiSettings::read_sky_light).doc("Whether rays that leave the scene see the sky.");
-	r_class.field("sdfgi_bounce_feedback", G, &SdfgiSettings::bounce_feedback).range(0, 1.99, 0.01).doc("How much of the light of one bounce feeds the next; 1 is physical and the default, unlike Godot's 0.5.");
-	r_class.property("sdfgi_cascades", &Environment::set_sdfgi_cascades, &Environment::get_sdfgi_cascades).range(1, 8, 1).doc("How many cascades there are, each twice as wide as the one before.");
-	r_class.property("sdfgi_min_cell_size", &Environment::set_sdfgi_min_cell_size, &Environment::get_sdfgi_min_cell_size).range(0.01, 64, 0.01).doc("Edge of a cell of the finest cascade, in metres.");
-	r_class.property("sdfgi_cascade0_distance", &Environment::set_sdfgi_cascade0_distance, &Environment::get_sdfgi_cascade0_distance).range(0.1, 16384, 0.1).or_greater().doc("Reach of the finest cascade: 64 cells, in metres; moves with sdfgi_min_cell_size.");
-	r_class.property("sdfgi_max_distance", &Environment::set_sdfgi_max_distance, &Environment::get_sdfgi_max_distance).range(0.1, 16384, 0.1).or_greater().doc("Reach of all cascades, in metres; moves with sdfgi_min_cell_size.");
+	r_class.field("sdfgi_bounce_feedback", G, &SdfgiSettings::bounce_feedback).range(0, 1.99, 0.01).enforced().doc("How much of the light of one bounce feeds the next; 1 is physical and the default, unlike Godot's 0.5.");
+	r_class.property("sdfgi_cascades", &Environment::set_sdfgi_cascades, &Environment::get_sdfgi_cascades).range(1, 8, 1).enforced().doc("How many cascades there are, each twice as wide as the one before.");
+	r_class.property("sdfgi_min_cell_size", &Environment::set_sdfgi_min_cell_size, &Environment::get_sdfgi_min_cell_size).range(1e-6, 1e6, 1e-6).enforced().doc("Edge of a cell of the finest cascade, in metres.");
+	r_class.property("sdfgi_cascade0_distance", &Environment::set_sdfgi_cascade0_distance, &Environment::get_sdfgi_cascade0_distance).range(1e-4, 16384, 1e-4).or_greater().enforced().doc("Reach of the finest cascade: 64 cells, in metres; moves with sdfgi_min_cell_size.");
+	r_class.property("sdfgi_max_distance", &Environment::set_sdfgi_max_distance, &Environment::get_sdfgi_max_distance).range(1e-4, 16384, 1e-4).or_greater().enforced().doc("Reach of all cascades, in metres; moves with sdfgi_min_cell_size.");
 	r_class.field("sdfgi_y_scale", G, &SdfgiSettings::y_scale).enum_of("SDFGIYScale").doc("Height of a cell in relation to its width.");
 	r_class.field("sdfgi_energy", G, &SdfgiSettings::energy).range(0, 16, 0.01).or_greater().doc("Multiplies the indirect light that surfaces show.");
 	r_class.field("sdfgi_normal_bias", G, &SdfgiSettings::normal_bias).range(0, 16, 0.01).or_greater().doc("How far look-ups start from the surface, in quarter cells.");
@@ -126,7 +126,7 @@ void Environment::bind(ClassBuilder<Environment> &r_class) {
 	r_class.field("background_color", &Environment::state, &State::background_color).doc("The colour of BG_COLOR.");
 	r_class.field("background_energy_multiplier", P, &Parameters::background_energy).range(0, 16, 0.01).or_greater().doc("Multiplies the light of the background, the sky included.");
 	r_class.field("sky", &Environment::state, &State::sky).doc("The sky of BG_SKY, and of ambient light from the sky.");
-	r_class.field("sky_custom_fov", P, &Parameters::sky_custom_fov_degrees).range(0, 180, 0.1).doc("Field of view that the sky is drawn with, in degrees; 0 is the camera's.");
+	r_class.field("sky_custom_fov", P, &Parameters::sky_custom_fov_degrees).range(0, 180, 0.1).enforced().doc("Field of view that the sky is drawn with, in degrees; 0 is the camera's.");
 	r_class.field("sky_rotation", &Environment::state, &State::sky_rotation).doc("Turns the sky: Euler angles in radians.");
 	r_class.field("ambient_light_source", P, &Parameters::ambient_source).enum_of("AmbientSource").doc("Where ambient light comes from.");
 	r_class.field("ambient_light_color", &Environment::state, &State::ambient_light_color).doc("The colour of ambient light that is not the sky's.");

@@ -23,7 +23,8 @@ public:
 	SdfgiSettings sdfgi;
 
 	// Three views of one number: cell, half width of cascade 0 (64 cells), half width of the last cascade. Setting one moves the
-	// others; changing the count of cascades keeps the cell. The cell stays between 0.01 and 64 m.
+	// others; changing the count of cascades keeps the cell. The cell stays between 1e-6 and 1e6 m: the inspector
+	// of Godot ends at 0.01 and 64.
 	void set_sdfgi_cascades(int p_cascades);
 	int get_sdfgi_cascades() const { return int(sdfgi.cascades); }
 	void set_sdfgi_min_cell_size(float p_size_m);

@@ -16,7 +16,7 @@ static Result<Ref<Resource>> load_texture(const std::string &p_path) {
 }
 
 void register_image_loaders() {
-	for (const char *extension : { "png", "jpg", "jpeg", "hdr", "exr" }) {
+	for (const char *extension : { "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr", "exr" }) {
 		ResourceLoader::register_loader(extension, load_texture);
 	}
 }

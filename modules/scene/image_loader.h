@@ -3,7 +3,7 @@
 
 namespace lucent::scene {
 
-// Makes ResourceLoader read pictures (.png, .jpg, .jpeg, .hdr, .exr) into ImageTextures.
+// Makes ResourceLoader read pictures (.png, .jpg, .jpeg, .webp, .tga, .bmp, .hdr, .exr) into ImageTextures.
 void register_image_loaders();
 
 } // namespace lucent::scene

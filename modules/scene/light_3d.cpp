@@ -72,7 +72,7 @@ void Light3D::bind(ClassBuilder<Light3D> &r_class) {
 	r_class.property("light_color", &Light3D::set_color, &Light3D::get_color).doc("The colour, sRGB-encoded.");
 	r_class.field("light_energy", P, &Light::energy).range(0, 16, 0.001).or_greater().doc("Multiplies the light; 1 makes a white surface that faces it white.");
 	r_class.field("light_indirect_energy", P, &Light::indirect_energy).range(0, 16, 0.001).or_greater().doc("Multiplies the light's part in global illumination.");
-	r_class.field("light_angular_distance", P, &Light::angular_size_degrees).range(0, 90, 0.01).doc("How wide a sun looks, in degrees; its shadows soften with it.");
+	r_class.field("light_angular_distance", P, &Light::angular_size_degrees).range(0, 90, 0.01).enforced().doc("How wide a sun looks, in degrees; its shadows soften with it.");
 	r_class.field("light_size", P, &Light::size_m).range(0, 1, 0.001).or_greater().doc("Radius of a lamp, in metres; its shadows soften with it.");
 	r_class.field("light_negative", P, &Light::negative).doc("Takes light away, no more than there is.");
 	r_class.field("light_specular", P, &Light::specular).range(0, 16, 0.001).or_greater().doc("Multiplies the light's highlights; omni and spot lights have them in full at 0.5.");
@@ -80,7 +80,7 @@ void Light3D::bind(ClassBuilder<Light3D> &r_class) {
 	r_class.field("shadow_enabled", P, &Light::shadow_enabled).doc("Whether the light that falls on what is seen casts shadows; in global illumination every light does.");
 	r_class.field("shadow_bias", P, &Light::shadow_bias).range(0, 10, 0.001).doc("Moves shadows away from their casters, against acne.");
 	r_class.field("shadow_normal_bias", P, &Light::shadow_normal_bias).range(0, 10, 0.001).doc("Moves look-ups along the normal, in texels of the shadow map.");
-	r_class.field("shadow_opacity", P, &Light::shadow_opacity).range(0, 1, 0.01).doc("How dark shadows are.");
+	r_class.field("shadow_opacity", P, &Light::shadow_opacity).range(0, 1, 0.01).enforced().doc("How dark shadows are.");
 	r_class.property("editor_only", &Light3D::set_editor_only, &Light3D::is_editor_only).doc("Keeps the light out of pictures.");
 }
 
@@ -101,7 +101,7 @@ void SpotLight3D::bind(ClassBuilder<SpotLight3D> &r_class) {
 	r_class.doc("A lamp that shines in a cone around its -z.");
 	r_class.field("spot_range", &SpotLight3D::parameters, &lucent::Light::range_m).range(0, 4096, 0.001).or_greater().doc("Where the light ends, in metres.");
 	r_class.field("spot_attenuation", &SpotLight3D::parameters, &lucent::Light::attenuation).range(-10, 10, 0.001).doc("The exponent of the falloff with distance; 2 is physical.");
-	r_class.field("spot_angle", &SpotLight3D::parameters, &lucent::Light::spot_angle_degrees).range(0, 180, 0.01).doc("Half of the cone's opening, in degrees.");
+	r_class.field("spot_angle", &SpotLight3D::parameters, &lucent::Light::spot_angle_degrees).range(0, 180, 0.01).enforced().doc("Half of the cone's opening, in degrees.");
 	r_class.field("spot_angle_attenuation", &SpotLight3D::parameters, &lucent::Light::spot_attenuation).range(0, 10, 0.001).or_greater().doc("How the light fades towards the cone's edge.");
 }
 

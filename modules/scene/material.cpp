@@ -56,9 +56,9 @@ static TransparencyMode resolve_transparency(MaterialTransparency p_mode) {
 lucent::Material BaseMaterial3D::resolve(SceneContext &p_context) const {
 	lucent::Material material;
 	material.albedo = Vector4(srgb_to_linear(state.albedo_color), state.albedo_color.a);
-	material.metallic = state.metallic;
-	material.roughness = state.roughness;
-	material.specular = state.specular_mode == SpecularMode::DISABLED ? 0.0f : state.metallic_specular;
+	material.metallic = glm::clamp(state.metallic, 0.0f, 1.0f); // files may have any
+	material.roughness = glm::clamp(state.roughness, 0.0f, 1.0f);
+	material.specular = state.specular_mode == SpecularMode::DISABLED ? 0.0f : glm::clamp(state.metallic_specular, 0.0f, 1.0f);
 	material.specular_tint = state.specular_tint;
 	if (state.emission_enabled) {
 		material.emission = srgb_to_linear(state.emission) * state.emission_energy_multiplier;
@@ -80,9 +80,16 @@ lucent::Material BaseMaterial3D::resolve(SceneContext &p_context) const {
 	};
 	set_texture(TextureSlot::ALBEDO, state.albedo_texture, TextureChannel::RED, false);
 	set_texture(TextureSlot::NORMAL, state.normal_enabled ? state.normal_texture : nullptr, TextureChannel::RED, false);
-	set_texture(TextureSlot::METALLIC, state.metallic_texture, state.metallic_texture_channel, false);
-	set_texture(TextureSlot::ROUGHNESS, state.roughness_texture, state.roughness_texture_channel, false);
-	set_texture(TextureSlot::OCCLUSION, state.ao_enabled ? state.ao_texture : nullptr, state.ao_texture_channel, state.ao_on_uv2);
+	if (is_orm()) {
+		material.metallic = material.roughness = 1.0f;
+		set_texture(TextureSlot::METALLIC, state.orm_texture, TextureChannel::BLUE, false);
+		set_texture(TextureSlot::ROUGHNESS, state.orm_texture, TextureChannel::GREEN, false);
+		set_texture(TextureSlot::OCCLUSION, state.ao_enabled ? state.orm_texture : nullptr, TextureChannel::RED, state.ao_on_uv2);
+	} else {
+		set_texture(TextureSlot::METALLIC, state.metallic_texture, state.metallic_texture_channel, false);
+		set_texture(TextureSlot::ROUGHNESS, state.roughness_texture, state.roughness_texture_channel, false);
+		set_texture(TextureSlot::OCCLUSION, state.ao_enabled ? state.ao_texture : nullptr, state.ao_texture_channel, state.ao_on_uv2);
+	}
 	set_texture(TextureSlot::EMISSION, state.emission_enabled ? state.emission_texture : nullptr, TextureChannel::RED, state.emission_on_uv2);
 	return material;
 }
@@ -101,7 +108,11 @@ void BaseMaterial3D::free_server_objects(RenderingServer &p_server) {
 
 void Material::bind(ClassBuilder<Material> &r_class) {
 	r_class.doc("How something is coloured.");
-	r_class.property("render_priority", &Material::set_render_priority, &Material::get_render_priority).range(-128, 127, 1).doc("Blended surfaces of higher priority are drawn later.");
+	r_class.property("render_priority", &Material::set_render_priority, &Material::get_render_priority).range(-128, 127, 1).enforced().doc("Blended surfaces of higher priority are drawn later.");
+}
+
+void ORMMaterial3D::bind(ClassBuilder<ORMMaterial3D> &r_class) {
+	r_class.doc("As StandardMaterial3D, but that one texture holds occlusion, roughness and metallic; their own textures and factors have no effect.");
 }
 
 void StandardMaterial3D::bind(ClassBuilder<StandardMaterial3D> &r_class) {

@@ -76,6 +76,7 @@ public:
 		bool ao_on_uv2 = false;
 		Ref<Texture2D> ao_texture;
 		TextureChannel ao_texture_channel = TextureChannel::RED;
+		Ref<Texture2D> orm_texture; // of ORMMaterial3D alone, where it takes the place of the three above it and of their factors
 		MaterialTransparency transparency = MaterialTransparency::DISABLED;
 		float alpha_scissor_threshold = 0.5f;
 		MaterialBlend blend_mode = MaterialBlend::MIX;
@@ -109,6 +110,7 @@ protected:
 	void free_server_objects(RenderingServer &p_server) override;
 
 private:
+	virtual bool is_orm() const { return false; }
 	TextureRef texture_ref(SceneContext &p_context, TextureSlot p_slot, const Ref<Texture2D> &p_texture, TextureChannel p_channel, bool p_uv2) const;
 
 	State state;
@@ -117,6 +119,12 @@ private:
 
 class StandardMaterial3D : public BaseMaterial3D {
 	LUCENT_CLASS(StandardMaterial3D, BaseMaterial3D)
+};
+
+// One texture for occlusion (red), roughness (green) and metallic (blue); white without it.
+class ORMMaterial3D : public BaseMaterial3D {
+	LUCENT_CLASS(ORMMaterial3D, BaseMaterial3D)
+	bool is_orm() const override { return true; }
 };
 
 } // namespace lucent::scene

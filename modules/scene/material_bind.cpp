@@ -49,6 +49,7 @@ void BaseMaterial3D::bind(ClassBuilder<BaseMaterial3D> &r_class) {
 	r_class.field("ao_on_uv2", S, &State::ao_on_uv2).doc("Reads ao_texture with the second texture coordinates.");
 	r_class.field("ao_texture", S, &State::ao_texture).doc("Dims indirect light.");
 	r_class.field("ao_texture_channel", S, &State::ao_texture_channel).enum_of("TextureChannel").doc("The channel of ao_texture that counts.");
+	r_class.field("orm_texture", S, &State::orm_texture).doc("Of ORMMaterial3D: occlusion in red, roughness in green, metallic in blue; without one all are 1.");
 	r_class.field("texture_filter", S, &State::texture_filter).enum_of("TextureFilter").doc("How textures are magnified and minified.");
 	r_class.field("texture_repeat", S, &State::texture_repeat).doc("Whether textures repeat outside of 0 to 1, or clamp.");
 	r_class.field("uv1_offset", S, &State::uv1_offset).doc("Added to the first texture coordinates, after the scale.");

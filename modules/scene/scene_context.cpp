@@ -10,6 +10,11 @@ SceneContext::~SceneContext() {
 }
 
 void SceneContext::flush() {
+	for (size_t i = 0; i < attached.size(); i++) { // sending one can attach others, and queue them
+		if (attached[i]->is_stale(*this)) {
+			attached[i]->send(*this);
+		}
+	}
 	// Sending one resource can attach others, which send themselves at once and queue nothing.
 	const std::vector<ObjectID> pending = std::move(queue);
 	queue.clear();

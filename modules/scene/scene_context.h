@@ -48,6 +48,8 @@ protected:
 	SceneContext *get_context() const { return context; }
 	// Sends everything, making server objects as needed. Called at most once a flush.
 	virtual void send(SceneContext &p_context) = 0;
+	// Asked at each flush: whether what was sent depends on something else that changed.
+	virtual bool is_stale(SceneContext &) const { return false; }
 	// Frees the server objects. The context is still there.
 	virtual void free_server_objects(RenderingServer &p_server) = 0;
 

@@ -3,6 +3,7 @@
 
 #include "modules/scene/camera_3d.h"
 #include "modules/scene/viewport.h"
+#include "modules/scene/visual_instance_3d.h"
 #include "modules/scene/world_environment.h"
 
 #include <algorithm>
@@ -97,8 +98,18 @@ void SceneTree::flush() {
 		}
 	}
 	moved.clear();
+	update_visibility_ranges();
 	if (context) {
 		context->flush();
+	}
+}
+
+void SceneTree::update_visibility_ranges() {
+	if (current_camera && !ranged.empty()) {
+		const Vector3 eye = current_camera->get_camera_transform().origin;
+		for (GeometryInstance3D *node : ranged) {
+			node->update_visibility_range(eye);
+		}
 	}
 }
 

@@ -7,6 +7,7 @@
 namespace lucent::scene {
 
 class Camera3D;
+class GeometryInstance3D;
 class Node3D;
 class WorldEnvironment;
 
@@ -61,6 +62,7 @@ private:
 	friend class Node3D;
 	friend class Camera3D;
 	friend class WorldEnvironment;
+	friend class GeometryInstance3D;
 	void node_entered(Node *p_node);
 	void node_left(Node *p_node);
 	void queue_transform(ObjectID p_node) { moved.push_back(p_node); }
@@ -70,6 +72,9 @@ private:
 	void environment_entered(WorldEnvironment *p_node);
 	void environment_left(WorldEnvironment *p_node);
 	void update_environment();
+	void visibility_range_entered(GeometryInstance3D *p_node) { ranged.push_back(p_node); }
+	void visibility_range_left(GeometryInstance3D *p_node) { std::erase(ranged, p_node); }
+	void update_visibility_ranges();
 
 	std::unique_ptr<SceneContext> context;
 	ScenarioRid scenario;
@@ -78,6 +83,7 @@ private:
 	std::vector<Camera3D *> cameras; // in the tree, in order of entry
 	Camera3D *current_camera = nullptr;
 	std::vector<WorldEnvironment *> world_environments;
+	std::vector<GeometryInstance3D *> ranged; // with a visibility range
 	ObjectID current_scene;
 	int node_count = 0;
 	bool paused = false;

@@ -61,6 +61,11 @@ void Sky::free_server_objects(RenderingServer &p_server) {
 	rid = {};
 }
 
+bool Sky::is_stale(SceneContext &p_context) const {
+	const SkyMaterial *sky_material = dynamic_cast<const SkyMaterial *>(material.get());
+	return sky_material && sky_material->is_stale(p_context);
+}
+
 void ProceduralSkyMaterial::bind(ClassBuilder<ProceduralSkyMaterial> &r_class) {
 	constexpr auto S = &ProceduralSkyMaterial::state;
 	r_class.doc("A gradient from the horizon to the zenith, another below, and a disc for each sun. Colours are sRGB-encoded.");

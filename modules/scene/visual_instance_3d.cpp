@@ -5,6 +5,8 @@
 #include "modules/scene/viewport.h"
 #include "servers/core/class_builder.h"
 
+#include <algorithm>
+
 namespace lucent::scene {
 
 void VisualInstance3D::_notification(int p_what) {
@@ -51,6 +53,7 @@ void VisualInstance3D::set_layer_mask(uint32_t p_mask) {
 	layers = p_mask;
 	if (context) {
 		context->server().instance_set_layer_mask(instance, layers);
+		look_changed();
 	}
 }
 
@@ -63,6 +66,7 @@ void GeometryInstance3D::set_material_override(const Ref<Material> &p_material) 
 	const Ref<Material> old = std::exchange(material_override, p_material); // lives until the server has the new one
 	if (get_context()) {
 		get_context()->server().instance_geometry_set_material_override(get_instance(), rid_of(material_override, *get_context()));
+		look_changed();
 	}
 }
 
@@ -70,6 +74,7 @@ void GeometryInstance3D::set_cast_shadow(ShadowCasting p_setting) {
 	cast_shadow = p_setting;
 	if (get_context()) {
 		get_context()->server().instance_geometry_set_cast_shadows_setting(get_instance(), cast_shadow);
+		look_changed();
 	}
 }
 
@@ -77,13 +82,67 @@ void GeometryInstance3D::set_gi_mode(GiMode p_mode) {
 	gi_mode = p_mode;
 	if (get_context()) {
 		get_context()->server().instance_geometry_set_gi_mode(get_instance(), gi_mode);
+		look_changed();
 	}
 }
 
 void GeometryInstance3D::set_transparency(float p_transparency) {
 	transparency = glm::clamp(p_transparency, 0.0f, 1.0f);
 	if (get_context()) {
-		get_context()->server().instance_geometry_set_transparency(get_instance(), transparency);
+		get_context()->server().instance_geometry_set_transparency(get_instance(), 1.0f - (1.0f - transparency) * (1.0f - faded));
+		look_changed();
+	}
+}
+
+void GeometryInstance3D::_notification(int p_what) {
+	VisualInstance3D::_notification(p_what);
+	if (p_what == NOTIFICATION_ENTER_WORLD) {
+		state_changed();
+	} else if (p_what == NOTIFICATION_EXIT_WORLD && listed) {
+		get_tree()->visibility_range_left(this);
+		listed = false;
+	}
+}
+
+void GeometryInstance3D::state_changed() {
+	const bool has_range = visibility_range.begin > 0.0f || visibility_range.end > 0.0f;
+	if (!get_context() || has_range == listed) {
+		return;
+	}
+	listed = has_range;
+	if (has_range) {
+		get_tree()->visibility_range_entered(this);
+	} else {
+		get_tree()->visibility_range_left(this);
+		in_range = true;
+		faded = 0.0f;
+		set_transparency(transparency);
+		update_visibility();
+	}
+}
+
+void GeometryInstance3D::update_visibility_range(const Vector3 &p_eye) {
+	const VisibilityRange &r = visibility_range;
+	const bool fades = r.fade_mode == FadeMode::SELF;
+	const float outwards = fades || in_range ? 1.0f : -1.0f; // without a fade a hidden level comes back later than it went
+	const AABB box = get_aabb().xform(get_global_transform());
+	const float distance = glm::length(p_eye - (box.is_empty() ? get_global_transform().origin : box.center()));
+	const bool shown = (r.begin <= 0.0f || distance >= r.begin - outwards * r.begin_margin) && (r.end <= 0.0f || distance <= r.end + outwards * r.end_margin);
+	float fade = 0.0f;
+	if (fades && shown && r.begin > 0.0f && r.begin_margin > 0.0f) {
+		fade = std::max(fade, 1.0f - (distance - r.begin + r.begin_margin) / (2.0f * r.begin_margin));
+	}
+	if (fades && shown && r.end > 0.0f && r.end_margin > 0.0f) {
+		fade = std::max(fade, (distance - r.end + r.end_margin) / (2.0f * r.end_margin));
+	}
+	fade = glm::clamp(fade, 0.0f, 1.0f);
+	if (shown != in_range) {
+		in_range = shown;
+		update_visibility();
+	}
+	if (fade != faded) {
+		faded = fade;
+		set_transparency(transparency);
 	}
 }
 
@@ -91,7 +150,7 @@ void GeometryInstance3D::send_instance(RenderingServer &p_server) {
 	p_server.instance_geometry_set_material_override(get_instance(), rid_of(material_override, *get_context()));
 	p_server.instance_geometry_set_cast_shadows_setting(get_instance(), cast_shadow);
 	p_server.instance_geometry_set_gi_mode(get_instance(), gi_mode);
-	p_server.instance_geometry_set_transparency(get_instance(), transparency);
+	p_server.instance_geometry_set_transparency(get_instance(), 1.0f - (1.0f - transparency) * (1.0f - faded));
 }
 
 void MeshInstance3D::send_instance(RenderingServer &p_server) {
@@ -196,8 +255,15 @@ void GeometryInstance3D::bind(ClassBuilder<GeometryInstance3D> &r_class) {
 	r_class.enumeration("ShadowCastingSetting", { { "SHADOW_CASTING_SETTING_OFF", ShadowCasting::OFF }, { "SHADOW_CASTING_SETTING_ON", ShadowCasting::ON }, { "SHADOW_CASTING_SETTING_DOUBLE_SIDED", ShadowCasting::DOUBLE_SIDED }, { "SHADOW_CASTING_SETTING_SHADOWS_ONLY", ShadowCasting::SHADOWS_ONLY } });
 	r_class.enumeration("GIMode", { { "GI_MODE_DISABLED", GiMode::DISABLED }, { "GI_MODE_STATIC", GiMode::STATIC }, { "GI_MODE_DYNAMIC", GiMode::DYNAMIC } });
 	r_class.property("material_override", &GeometryInstance3D::set_material_override, &GeometryInstance3D::get_material_override).doc("Draws every surface, in place of their own materials.");
-	r_class.property("transparency", &GeometryInstance3D::set_transparency, &GeometryInstance3D::get_transparency).range(0, 1, 0.01).doc("0 is as the material has it, 1 is invisible.");
+	r_class.property("transparency", &GeometryInstance3D::set_transparency, &GeometryInstance3D::get_transparency).range(0, 1, 0.01).enforced().doc("0 is as the material has it, 1 is invisible.");
 	r_class.property("cast_shadow", &GeometryInstance3D::set_cast_shadow, &GeometryInstance3D::get_cast_shadow).enum_of("ShadowCastingSetting").doc("What the surface does in shadow maps.");
+	constexpr auto V = &GeometryInstance3D::visibility_range;
+	r_class.enumeration("VisibilityRangeFadeMode", { { "VISIBILITY_RANGE_FADE_DISABLED", FadeMode::DISABLED }, { "VISIBILITY_RANGE_FADE_SELF", FadeMode::SELF }, { "VISIBILITY_RANGE_FADE_DEPENDENCIES", FadeMode::DEPENDENCIES } });
+	r_class.field("visibility_range_begin", V, &VisibilityRange::begin).range(0, 4096, 0.01).or_greater().doc("The nearest that a camera may be for it to show, in metres; 0 is no limit.");
+	r_class.field("visibility_range_begin_margin", V, &VisibilityRange::begin_margin).range(0, 4096, 0.01).or_greater().doc("Width of the change at visibility_range_begin, in metres.");
+	r_class.field("visibility_range_end", V, &VisibilityRange::end).range(0, 4096, 0.01).or_greater().doc("The farthest that a camera may be for it to show, in metres; 0 is no limit.");
+	r_class.field("visibility_range_end_margin", V, &VisibilityRange::end_margin).range(0, 4096, 0.01).or_greater().doc("Width of the change at visibility_range_end, in metres.");
+	r_class.field("visibility_range_fade_mode", V, &VisibilityRange::fade_mode).enum_of("VisibilityRangeFadeMode").doc("Whether it fades in and out within the margins; dependencies do not.");
 	r_class.property("gi_mode", &GeometryInstance3D::set_gi_mode, &GeometryInstance3D::get_gi_mode).enum_of("GIMode").doc("Static geometry blocks and bounces light; dynamic geometry only receives it.");
 }
 

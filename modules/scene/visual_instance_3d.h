@@ -24,6 +24,8 @@ protected:
 	// Tells the server all about the new instance but its place, layers and visibility.
 	virtual void send_instance(RenderingServer &) {}
 	virtual void free_base(RenderingServer &) {}
+	// Layers, material, shadows, GI or transparency changed, in a tree with a server; for classes with more than one instance.
+	virtual void look_changed() {}
 	virtual bool is_shown() const { return is_visible_in_tree(); }
 	void update_visibility();
 
@@ -46,7 +48,28 @@ public:
 	void set_transparency(float p_transparency);
 	float get_transparency() const { return transparency; }
 
+	enum class FadeMode : uint8_t {
+		DISABLED,
+		SELF,
+		DEPENDENCIES
+	};
+	// Distances between the camera and the middle of the box around the mesh at which it shows, in metres; 0: no limit. With a fade
+	// the margin is where it comes and goes, without it is how far the camera must go back for the level to change back.
+	struct VisibilityRange {
+		float begin = 0.0f;
+		float begin_margin = 0.0f;
+		float end = 0.0f;
+		float end_margin = 0.0f;
+		FadeMode fade_mode = FadeMode::DISABLED;
+	};
+	VisibilityRange visibility_range; // after an edit: state_changed()
+	void state_changed();
+	// Shows, hides or fades it for a camera there. The tree calls it in flush().
+	void update_visibility_range(const Vector3 &p_eye);
+
 protected:
+	void _notification(int p_what) override;
+	bool is_shown() const override { return in_range && VisualInstance3D::is_shown(); }
 	void send_instance(RenderingServer &p_server) override;
 
 private:
@@ -54,6 +77,9 @@ private:
 	ShadowCasting cast_shadow = ShadowCasting::ON;
 	GiMode gi_mode = GiMode::STATIC;
 	float transparency = 0.0f;
+	float faded = 0.0f; // what the range adds to transparency
+	bool in_range = true;
+	bool listed = false; // in the tree's list
 };
 
 class MeshInstance3D : public GeometryInstance3D {

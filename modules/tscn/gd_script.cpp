@@ -19,6 +19,11 @@ Ref<Resource> make_gd_script(const std::string &p_path) {
 	return script;
 }
 
+bool is_gd_script(const std::string &p_type, const std::string &p_path) {
+	const std::string extension = path_extension(p_path);
+	return p_type == "Script" || p_type == "GDScript" || p_type == "CSharpScript" || extension == "gd" || extension == "cs";
+}
+
 static std::vector<std::string> callbacks_of(const std::string &p_path) {
 	std::vector<std::string> found;
 	const Result<std::vector<std::byte>> bytes = read_file(p_path, uint64_t(1) << 20);
@@ -35,10 +40,10 @@ static std::vector<std::string> callbacks_of(const std::string &p_path) {
 	return found;
 }
 
-std::string gd_script_notice(const Object &p_owner, const Resource *p_script) {
+std::string gd_script_notice(const Object &p_owner, const Resource &p_script) {
 	const scene::Node *node = dynamic_cast<const scene::Node *>(&p_owner);
 	const std::string name = node ? node->get_name() : p_owner.get_class();
-	const std::string path = p_script ? p_script->get_path() : "";
+	const std::string path = p_script.get_path();
 	std::string lost;
 	for (const std::string &callback : path.empty() ? std::vector<std::string>() : callbacks_of(path)) {
 		lost += (lost.empty() ? "" : ", ") + callback;

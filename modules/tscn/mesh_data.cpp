@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/tscn/mesh_data.h"
 
+#include "modules/scene/load_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -272,14 +274,14 @@ Result<MeshSurface> decode_mesh_surface(const Dictionary &p_surface) {
 void add_mesh_surfaces(scene::ArrayMesh &r_mesh, const Variant &p_surfaces, const std::string &p_source, int p_line) {
 	const std::optional<Array> surfaces = variant_cast<Array>(p_surfaces);
 	if (!surfaces) {
-		log_warning("{}:{}: _surfaces is no array; the mesh stays empty", p_source, p_line);
+		scene::LoadReport::error(fmt::format("{}:{}: _surfaces is no array; the mesh stays empty", p_source, p_line));
 		return;
 	}
 	for (size_t i = 0; i < surfaces->size(); i++) {
 		const Dictionary entry = variant_or<Dictionary>((*surfaces)[i], {});
 		Result<MeshSurface> surface = decode_mesh_surface(entry);
 		if (!surface) {
-			log_warning("{}:{}: surface {} of the mesh is left out: {}", p_source, p_line, i, surface.error().message);
+			scene::LoadReport::error(fmt::format("{}:{}: surface {} of the mesh is left out: {}", p_source, p_line, i, surface.error().message));
 			continue;
 		}
 		const Variant *material = entry.find("material");

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "modules/tscn/text_loader.h"
 
+#include "modules/scene/load_report.h"
 #include "modules/tscn/gd_script.h"
 #include "modules/tscn/text_scene.h"
+#include "modules/tscn/uid_index.h"
 #include "servers/core/class_db.h"
 #include "servers/core/file_io.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <unordered_map>
 
 namespace lucent {
@@ -19,6 +22,12 @@ std::vector<std::string> &loading_stack() {
 	return stack;
 }
 
+// A cycle, or more nodes or files than fit: such a scene can't be shown in part.
+bool &loading_is_endless() {
+	thread_local bool endless = false;
+	return endless;
+}
+
 constexpr size_t MAX_FILE_DEPTH = 64; // scenes in scenes
 constexpr size_t MAX_NODE_DEPTH = 256; // names in a parent path
 // Scenes in scenes can multiply: 30 files that each hold two of the next are a billion nodes.
@@ -28,6 +37,7 @@ constexpr uint64_t MAX_TEXT_BYTES = uint64_t(1) << 30;
 struct ExternalResource {
 	std::string type;
 	std::string path;
+	std::string uid; // "uid://…"; empty: the path alone counts
 	int line = 0;
 	bool loaded = false;
 	Ref<Resource> resource; // null: not there, a warning was given
@@ -106,7 +116,7 @@ private:
 		if (id.empty() || p_header.text("path").empty()) {
 			return reader.fail("[ext_resource] needs an id and a path");
 		}
-		ext_resources[id] = { p_header.text("type"), p_header.text("path"), p_header.line, false, nullptr };
+		ext_resources[id] = { p_header.text("type"), p_header.text("path"), p_header.text("uid"), p_header.line, false, nullptr };
 		return reader.read_properties(properties);
 	}
 
@@ -115,15 +125,16 @@ private:
 		if (p_type.empty()) {
 			return reader.fail(fmt::format("[{}] needs a type", p_header.tag));
 		}
-		r_resource = ClassDB::instantiate_resource(p_type);
+		const bool is_script = is_gd_script(p_type, "");
+		r_resource = is_script ? make_gd_script("") : ClassDB::instantiate_resource(p_type);
 		if (!r_resource) {
-			log_warning("{}:{}: resources of class {} are not supported; left out", source, p_header.line, p_type);
+			scene::LoadReport::left_out_class(fmt::format("{}:{}", source, p_header.line), p_type);
 		}
 		if (!reader.read_properties(properties)) {
 			return false;
 		}
 		for (const TscnProperty &property : properties) {
-			if (r_resource) {
+			if (r_resource && !is_script) {
 				set_text_property(*r_resource, property, source);
 			}
 		}
@@ -154,16 +165,21 @@ private:
 		}
 		if (const Variant *instance = p_header.find("instance")) {
 			node.instance = variant_or<Ref<scene::PackedScene>>(*instance, nullptr);
-			if (!node.instance) {
-				return reader.fail(fmt::format("node '{}': what it instances is no scene", node.name));
+			if (!node.instance && is_root) {
+				return reader.fail(last_failure.empty() ? fmt::format("node '{}': what it instances is no scene", node.name) : last_failure);
 			}
+			if (!node.instance && !instance->is_nil()) {
+				scene::LoadReport::error(fmt::format("{}:{}: node '{}' stays empty: what it instances is no scene", source, node.line, node.name));
+			}
+			node.instance_failed = !node.instance;
 		} else if (p_header.find("instance_placeholder")) {
 			node.type = "Node3D";
-			log_warning("{}:{}: node '{}' is a placeholder, which scripts would fill; left empty", source, node.line, node.name);
+			scene::LoadReport::warning("placeholder", fmt::format("{}:{}: node '{}' is a placeholder, which scripts would fill; left empty", source, node.line, node.name));
 		}
 		const TextScene *nested = dynamic_cast<const TextScene *>(node.instance.get());
 		data->node_count += nested != nullptr ? nested->get_node_count() : 1;
 		if (data->node_count > MAX_NODES) {
+			loading_is_endless() = true;
 			return reader.fail(fmt::format("the scene has more than {} nodes", MAX_NODES));
 		}
 		if (!reader.read_properties(node.properties)) {
@@ -182,7 +198,7 @@ private:
 			return found->second ? Variant(found->second) : Variant();
 		}
 		if (p_kind == TscnReference::PATH) {
-			ExternalResource resource = { "", p_id, reader.line(), false, nullptr };
+			ExternalResource resource = { "", p_id, "", reader.line(), false, nullptr };
 			return load_external(resource);
 		}
 		const auto found = ext_resources.find(p_id);
@@ -192,38 +208,77 @@ private:
 		return load_external(found->second);
 	}
 
-	// A scene that is missing or broken is an error, anything else a warning and null.
+	// What can't be read is an error line and null; a cycle or too much of anything ends the whole.
 	Result<Variant> load_external(ExternalResource &r_external) {
 		if (!r_external.loaded) {
 			r_external.loaded = true;
-			const std::string path = resolve_resource_path(r_external.path, source, path_folder(loading_stack().front()));
-			if (r_external.type == "Script" || r_external.type == "GDScript") {
-				r_external.resource = make_gd_script(path);
+			if (!is_gd_script(r_external.type, r_external.path) && is_without_effect(r_external)) {
+				return Variant();
+			}
+			const Result<std::string> located = locate(r_external);
+			if (is_gd_script(r_external.type, r_external.path)) { // its owner's line says what is lost
+				r_external.resource = make_gd_script(located ? located.value() : r_external.path);
 				return Variant(r_external.resource);
 			}
+			if (!located) {
+				last_failure = located.error().message;
+				scene::LoadReport::error(fmt::format("{}:{}: {}", source, r_external.line, last_failure));
+				return Variant();
+			}
+			const std::string &path = located.value();
 			if (std::find(loading_stack().begin(), loading_stack().end(), path) != loading_stack().end()) {
+				loading_is_endless() = true;
 				return make_error("'{}' is part of a cycle: it is being loaded already", r_external.path);
 			}
 			Result<Ref<Resource>> resource = scene::ResourceLoader::load(path);
 			if (resource) {
 				r_external.resource = resource.take();
-			} else if (r_external.type == "PackedScene" || is_scene_path(path)) {
+			} else if (loading_is_endless()) {
 				return make_error("can't load '{}': {}", r_external.path, resource.error().message);
 			} else {
-				log_warning("{}:{}: '{}' is left out: {}", source, r_external.line, r_external.path, resource.error().message);
+				last_failure = fmt::format("can't load '{}': {}", r_external.path, resource.error().message);
+				scene::LoadReport::error(fmt::format("{}:{}: '{}' is left out: {}", source, r_external.line, r_external.path, resource.error().message));
 			}
 		}
 		return r_external.resource ? Variant(r_external.resource) : Variant();
 	}
 
-	static bool is_scene_path(const std::string &p_path) {
-		const std::string extension = path_extension(p_path);
-		return extension == "tscn" || extension == "glb" || extension == "gltf";
+	// A UID counts before the path, as in Godot: files move, and others take their places.
+	static Result<std::string> locate_by_uid(const std::string &p_uid, const std::string &p_named, const std::string &p_path, const std::string &p_root) {
+		std::error_code error;
+		const bool present = !p_path.empty() && std::filesystem::exists(p_path, error);
+		const std::string present_uid = present ? file_uid(p_path) : "";
+		if (present && (present_uid.empty() || present_uid == p_uid)) {
+			return p_path;
+		}
+		const std::string moved = find_by_uid(p_root, p_uid);
+		if (!moved.empty() || present) {
+			return moved.empty() ? p_path : moved;
+		}
+		return make_error("'{}' is left out: there is no such file, and none in {} has {}", p_named, p_root, p_uid);
+	}
+
+	Result<std::string> locate(const ExternalResource &p_external) const {
+		const std::string folder = path_folder(loading_stack().front());
+		const bool by_uid_alone = p_external.path.starts_with("uid://");
+		const std::string path = by_uid_alone ? "" : resolve_resource_path(p_external.path, source, folder);
+		const std::string uid = by_uid_alone ? p_external.path : p_external.uid;
+		return uid.starts_with("uid://") ? locate_by_uid(uid, p_external.path, path, project_folder(source, folder)) : Result<std::string>(path);
+	}
+
+	// Scripts, sounds and the like; they may be of kinds that nobody here reads.
+	static bool is_without_effect(const ExternalResource &p_external) {
+		static constexpr const char *EXTENSIONS[] = { "gdshaderinc", "wav", "ogg", "mp3", "ttf", "otf", "woff", "woff2", "fnt", "translation", "json", "csv" };
+		const std::string extension = path_extension(p_external.path);
+		const scene::LeftOutKind *kind = scene::find_left_out(p_external.type);
+		return (kind != nullptr && kind->effect == scene::LeftOutEffect::NONE) ||
+				std::any_of(std::begin(EXTENSIONS), std::end(EXTENSIONS), [&](const char *p_extension) { return extension == p_extension; });
 	}
 
 	std::string source;
 	TextFileReader reader;
 	bool is_scene = false;
+	std::string last_failure; // of an external file
 	std::string main_type; // of a .tres
 	std::unordered_map<std::string, ExternalResource> ext_resources;
 	std::unordered_map<std::string, Ref<Resource>> sub_resources;
@@ -244,7 +299,12 @@ Result<Ref<Resource>> load_text_file(const std::string &p_path) {
 
 Result<Ref<Resource>> load_text_resource(std::string_view p_text, const std::string &p_path) {
 	std::vector<std::string> &stack = loading_stack();
+	const scene::LoadReport::Scope report;
+	if (stack.empty()) {
+		loading_is_endless() = false;
+	}
 	if (stack.size() >= MAX_FILE_DEPTH) {
+		loading_is_endless() = true;
 		return make_error("{}: more than {} scenes within each other", p_path, MAX_FILE_DEPTH);
 	}
 	stack.push_back(absolute_path(p_path));

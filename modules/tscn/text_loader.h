@@ -19,8 +19,10 @@ Result<Ref<Resource>> load_text_resource(std::string_view p_text, const std::str
 // p_path without "." and "..", from the root of the file system.
 std::string absolute_path(const std::string &p_path);
 
-// "res://a/b.png", "b.png" or "/x/b.png" as seen from the file p_from. res:// starts at the nearest folder upwards that has a
-// project.godot, else at p_scene_folder.
+// Where res:// of the file p_from starts: the nearest folder upwards that has a project.godot, else p_scene_folder.
+std::string project_folder(const std::string &p_from, const std::string &p_scene_folder);
+
+// "res://a/b.png", "b.png" or "/x/b.png" as seen from the file p_from.
 std::string resolve_resource_path(const std::string &p_path, const std::string &p_from, const std::string &p_scene_folder);
 
 } // namespace lucent

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "modules/tscn/text_scene.h"
 
+#include "modules/scene/load_report.h"
 #include "modules/scene/node.h"
 #include "modules/scene/node_3d.h"
+#include "modules/scene/sky.h"
 #include "modules/tscn/gd_script.h"
 #include "modules/tscn/mesh_data.h"
 #include "servers/core/class_db.h"
@@ -12,12 +14,6 @@
 namespace lucent {
 
 namespace {
-
-// What scripts, the editor and importers keep in scenes; without effect on a picture.
-bool is_bookkeeping(const std::string &p_property) {
-	static const char *const NAMES[] = { "editor_description", "resource_local_to_scene", "shadow_mesh", "blend_shape_mode", "lightmap_size_hint" };
-	return p_property.starts_with("metadata/") || std::find(std::begin(NAMES), std::end(NAMES), p_property) != std::end(NAMES);
-}
 
 // Builds one instance of a TextScene.
 class SceneBuilder {
@@ -45,11 +41,11 @@ private:
 		if (root) {
 			parent = p_node.parent == "." ? root.get() : root->get_node_or_null(NodePath(p_node.parent));
 			if (parent == nullptr) {
-				log_warning("{}:{}: node '{}' is left out: there is no parent '{}'", source, p_node.line, p_node.name, p_node.parent);
+				scene::LoadReport::error(fmt::format("{}:{}: node '{}' is left out: there is no parent '{}'", source, p_node.line, p_node.name, p_node.parent));
 				return true;
 			}
 		}
-		if (parent != nullptr && p_node.type.empty() && !p_node.instance) {
+		if (parent != nullptr && p_node.type.empty() && !p_node.instance && !p_node.instance_failed) {
 			return change_inherited(p_node, *parent);
 		}
 		std::unique_ptr<scene::Node> node;
@@ -73,7 +69,7 @@ private:
 	bool change_inherited(const TscnNode &p_node, scene::Node &r_parent) {
 		scene::Node *node = r_parent.get_node_or_null(NodePath(p_node.name));
 		if (node == nullptr) {
-			log_warning("{}:{}: node '{}' is left out: the scene that '{}' instances has no such node", source, p_node.line, p_node.name, p_node.parent);
+			scene::LoadReport::error(fmt::format("{}:{}: node '{}' is left out: the scene that '{}' instances has no such node", source, p_node.line, p_node.name, p_node.parent));
 			return true;
 		}
 		configure(p_node, *node, true);
@@ -87,6 +83,10 @@ private:
 				return fail(p_node, instance.error().message);
 			}
 			r_node = instance.take();
+		} else if (p_node.instance_failed) { // said when it was read
+			r_node = std::make_unique<scene::Node3D>();
+			r_known_class = false;
+			return true;
 		} else if (p_node.type.empty()) {
 			return fail(p_node, fmt::format("node '{}' has neither a type nor an instance", p_node.name));
 		} else {
@@ -94,8 +94,9 @@ private:
 		}
 		if (!r_node) {
 			r_known_class = false;
-			const bool spatial = p_parent == nullptr || dynamic_cast<const scene::Node3D *>(p_parent) != nullptr || p_node.type.ends_with("3D");
-			log_warning("{}:{}: class {} is not supported; node '{}' becomes a {}", source, p_node.line, p_node.type, p_node.name, spatial ? "Node3D" : "Node");
+			const scene::LeftOutKind *kind = scene::find_left_out(p_node.type);
+			const bool spatial = kind != nullptr ? kind->spatial : p_parent == nullptr || dynamic_cast<const scene::Node3D *>(p_parent) != nullptr || p_node.type.ends_with("3D");
+			scene::LoadReport::left_out_class(fmt::format("{}:{}", source, p_node.line), p_node.type);
 			r_node = spatial ? std::make_unique<scene::Node3D>() : std::make_unique<scene::Node>();
 		}
 		return true;
@@ -141,29 +142,46 @@ void connect(scene::Node &r_root, const TscnConnection &p_connection) {
 } // namespace
 
 void set_text_property(Object &r_object, const TscnProperty &p_property, const std::string &p_source) {
-	if (is_bookkeeping(p_property.name)) {
-		return;
-	}
+	const std::string place = fmt::format("{}:{}", p_source, p_property.line);
 	if (scene::ArrayMesh *mesh = dynamic_cast<scene::ArrayMesh *>(&r_object); mesh != nullptr && p_property.name == "_surfaces") {
 		add_mesh_surfaces(*mesh, p_property.value, p_source, p_property.line);
 		return;
 	}
-	const std::string key = fmt::format("{}|{}|{}", p_source, r_object.get_class(), p_property.name);
+	if (p_property.name == "script") {
+		if (const Resource *script = dynamic_cast<const Resource *>(p_property.value.get_object())) { // the first stands for all
+			scene::LoadReport::left_out_script(r_object);
+			const std::string notice = fmt::format("{}: {}", place, gd_script_notice(r_object, *script));
+			if (!scene::LoadReport::warning("script", notice)) {
+				scene::LoadReport::note(notice, notice);
+			}
+		}
+		return;
+	}
 	if (!r_object.has_property(p_property.name)) {
-		const bool script = p_property.name == "script";
-		const std::string what = script ? gd_script_notice(r_object, dynamic_cast<const Resource *>(p_property.value.get_object())) : fmt::format("{} has no property '{}'; skipped", r_object.get_class(), p_property.name);
-		log_warning_once(script ? fmt::format("{}|script|{}", p_source, p_property.line) : key, fmt::format("{}:{}: {}", p_source, p_property.line, what));
+		scene::LoadReport::left_out_property(place, r_object, p_property.name);
+		return;
+	}
+	if (p_property.value.is_nil() && p_property.name == "sky_material" && r_object.is_class("Sky")) {
+		scene::LoadReport::warning("sky_material", fmt::format("{}: the sky's material is not supported; a procedural sky takes its place", place));
+		r_object.set("sky_material", std::make_shared<scene::ProceduralSkyMaterial>());
 		return;
 	}
 	if (p_property.value.is_nil()) { // null, or a resource that is left out: the default stays
 		return;
 	}
-	if (const Status status = r_object.set_property(p_property.name, p_property.value); !status) {
-		log_warning_once(key, fmt::format("{}:{}: {}; skipped", p_source, p_property.line, status.error().message));
+	const std::string key = fmt::format("value {} {}", r_object.get_class(), p_property.name);
+	const PropertyInfo *info = ClassDB::get_property(r_object.get_class(), p_property.name);
+	bool clamped = false;
+	const Status status = info != nullptr ? info->stored_set(r_object, p_property.value, clamped) : r_object.set_property(p_property.name, p_property.value);
+	if (!status) {
+		scene::LoadReport::warning(key, fmt::format("{}: {}; skipped", place, status.error().message));
+	} else if (clamped) {
+		scene::LoadReport::warning(key, fmt::format("{}: {}.{} can't be {}; it becomes {}", place, r_object.get_class(), p_property.name, p_property.value.to_string(), r_object.get(p_property.name).to_string()));
 	}
 }
 
 static Result<std::unique_ptr<scene::Node>> build_scene(const TscnSceneData &p_data) {
+	const scene::LoadReport::Scope report;
 	Result<std::unique_ptr<scene::Node>> root = SceneBuilder(p_data.source, p_data.nodes).build();
 	if (root) {
 		root.value()->set_scene_file_path(p_data.source);

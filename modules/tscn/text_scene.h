@@ -16,6 +16,7 @@ struct TscnNode {
 	std::string type; // empty: instance, or a node that the instanced scene brings
 	std::string parent; // path from the root; empty: this is the root
 	Ref<scene::PackedScene> instance;
+	bool instance_failed = false; // it can't be read, which was said: an empty node takes its place
 	std::vector<std::string> groups;
 	std::vector<TscnProperty> properties;
 	int line = 0;
@@ -28,7 +29,7 @@ struct TscnConnection {
 	std::string method;
 };
 
-// Sets a property read from p_source. Unknown ones and wrong values: a warning, said once for each class and property.
+// Sets a property read from p_source, as Godot stores it: ranges are the inspector's. Unknown ones and wrong values: a warning.
 void set_text_property(Object &r_object, const TscnProperty &p_property, const std::string &p_source);
 
 // What a TextScene and its copies share.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/tscn/variant_parser.h"
 
+#include "modules/scene/load_report.h"
 #include "modules/tscn/base64.h"
 #include "modules/tscn/variant_constructors.h"
 
@@ -131,7 +132,28 @@ private:
 			r_value = Variant();
 			return parse_strings(p_type, strings);
 		}
+		if (p_type == "Object") { // Object(Class,"property":value,…)
+			scene::LoadReport::warning("Object", fmt::format("{}:{}: Object(…) is read as null", tokens.source(), tokens.line()));
+			r_value = Variant();
+			return skip_call();
+		}
 		return tokens.fail(fmt::format("there is no type '{}'", p_type.substr(0, 40)));
+	}
+
+	// Everything up to the ')' that belongs to a '(' just taken.
+	bool skip_call() {
+		int depth = 1;
+		TscnToken token;
+		while (depth > 0) {
+			if (!tokens.next(token)) {
+				return false;
+			}
+			if (token.kind == TscnTokenKind::END) {
+				return tokens.fail("expected ')' after the values of Object, found the end of the file");
+			}
+			depth += token.is_symbol('(') ? 1 : (token.is_symbol(')') ? -1 : 0);
+		}
+		return true;
 	}
 
 	bool construct(const NumberConstructor &p_constructor, Variant &r_value) {

@@ -94,6 +94,11 @@ public:
 		info.properties.back().range.or_greater = true;
 		return *this;
 	}
+	// Files can't go beyond the range either.
+	ClassBuilder &enforced() {
+		info.properties.back().range.is_enforced = true;
+		return *this;
+	}
 	// p_enum: of this class ("BGMode") or another ("BaseMaterial3D.BlendMode").
 	ClassBuilder &enum_of(const std::string &p_enum) {
 		info.properties.back().hint = PropertyHint::ENUM;

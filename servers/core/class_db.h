@@ -34,6 +34,7 @@ struct PropertyRange {
 	double step = 0.0;
 	bool or_less = false; // min is where a slider ends; smaller values are good
 	bool or_greater = false;
+	bool is_enforced = false; // nothing outside works; else the range is a slider's, and files may go beyond
 };
 
 struct PropertyInfo {
@@ -53,6 +54,12 @@ struct PropertyInfo {
 	std::string get_hint_string() const;
 	// Checks type, finiteness, hard range and enumerators, then sets. The error names class, property, expectation and value.
 	Status checked_set(Object &r_object, const Variant &p_value) const;
+	// As checked_set for a value out of a scene file: one beyond a slider's range is set as it is, one beyond an enforced range
+	// becomes the nearest in it, which r_clamped says.
+	Status stored_set(Object &r_object, const Variant &p_value, bool &r_clamped) const;
+
+private:
+	Status set_in_range(Object &r_object, const Variant &p_value) const; // all but the range is checked
 };
 
 struct ArgumentInfo {

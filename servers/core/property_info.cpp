@@ -66,7 +66,35 @@ static bool is_finite(const Variant &p_value) {
 	}
 }
 
+// Bounds and values pass through float: 0.01f must not fall below 0.01.
+static bool is_below(const PropertyRange &p_range, double p_number) {
+	return !p_range.or_less && p_number < p_range.min - 1e-6 * std::abs(p_range.min);
+}
+
+static bool is_above(const PropertyRange &p_range, double p_number) {
+	return !p_range.or_greater && p_number > p_range.max + 1e-6 * std::abs(p_range.max);
+}
+
 Status PropertyInfo::checked_set(Object &r_object, const Variant &p_value) const {
+	const std::optional<double> number = variant_to_float(p_value);
+	if (set && is_finite(p_value) && hint == PropertyHint::RANGE && number && (is_below(range, *number) || is_above(range, *number))) {
+		return make_error("{}.{} must be between {} and {}, got {}", r_object.get_class(), name, range.or_less ? "-inf" : fmt::format("{}", range.min),
+				range.or_greater ? "inf" : fmt::format("{}", range.max), p_value.to_string());
+	}
+	return set_in_range(r_object, p_value);
+}
+
+Status PropertyInfo::stored_set(Object &r_object, const Variant &p_value, bool &r_clamped) const {
+	const std::optional<double> number = variant_to_float(p_value);
+	r_clamped = set && is_finite(p_value) && hint == PropertyHint::RANGE && range.is_enforced && number && (is_below(range, *number) || is_above(range, *number));
+	if (!r_clamped) {
+		return set_in_range(r_object, p_value);
+	}
+	const double nearest = is_below(range, *number) ? range.min : range.max;
+	return set_in_range(r_object, type == Variant::Type::INT ? Variant(int64_t(nearest)) : Variant(nearest));
+}
+
+Status PropertyInfo::set_in_range(Object &r_object, const Variant &p_value) const {
 	const auto full_name = [&] { return std::string(r_object.get_class()) + "." + name; }; // for errors alone: setting is frequent
 	if (!set) {
 		return make_error("{} is read-only", full_name());
@@ -75,14 +103,6 @@ Status PropertyInfo::checked_set(Object &r_object, const Variant &p_value) const
 		return make_error("{} must be finite, got {}", full_name(), p_value.to_string());
 	}
 	const std::optional<double> number = variant_to_float(p_value);
-	if (hint == PropertyHint::RANGE && number) {
-		// Bounds and values pass through float: 0.01f must not fall below 0.01.
-		const double tolerance = 1e-6 * std::max(std::abs(range.min), std::abs(range.max));
-		if ((!range.or_less && *number < range.min - tolerance) || (!range.or_greater && *number > range.max + tolerance)) {
-			return make_error("{} must be between {} and {}, got {}", full_name(), range.or_less ? "-inf" : fmt::format("{}", range.min),
-					range.or_greater ? "inf" : fmt::format("{}", range.max), p_value.to_string());
-		}
-	}
 	if (hint == PropertyHint::ENUM && number) {
 		const std::vector<ConstantInfo> constants = ClassDB::get_enum_constants(class_name);
 		if (std::none_of(constants.begin(), constants.end(), [&](const ConstantInfo &p_constant) { return double(p_constant.value) == *number; })) {

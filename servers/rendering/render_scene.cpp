@@ -27,7 +27,7 @@ const Material *RenderScene::surface_material(const Instance &p_instance, const 
 }
 
 Projection camera_projection(const Camera &p_camera, float p_aspect) {
-	const float near_m = std::max(p_camera.near_m, 1e-4f);
+	const float near_m = std::max(p_camera.near_m, 1e-7f);
 	const float far_m = std::max(p_camera.far_m, near_m * 1.001f);
 	const float size = p_camera.kind == Camera::Kind::PERSPECTIVE ? 2.0f * near_m * std::tan(0.5f * glm::radians(p_camera.fov_degrees)) : p_camera.size_m;
 	Vector2 half(0.5f * size); // of the near plane

@@ -102,6 +102,8 @@ void ShadowMaps::add_sun(const GpuScene &p_scene, const shader::LightData &p_lig
 	const Basis rotation = light_from_world(p_light.direction, any_up(p_light.direction));
 	const AABB bounds = p_scene.bounds().is_empty() ? AABB{ Vector3(-1.0f), Vector3(1.0f) } : p_scene.bounds();
 	const AABB box = light_space_box(bounds, rotation);
+	// 1 cm of a scene of 10 m; at least what floats there can tell apart.
+	const float margin_m = std::max(0.001f * glm::length(box.size()), 1e-6f * glm::length(box.center()) + 1e-9f);
 	const Projection clip_from_view = camera_projection(p_camera, p_aspect);
 	const Projection view_from_clip = glm::inverse(clip_from_view);
 	const float farthest_m = -bounds.xform(p_camera.transform.affine_inverse()).min.z;
@@ -120,19 +122,21 @@ void ShadowMaps::add_sun(const GpuScene &p_scene, const shader::LightData &p_lig
 		}
 		// A sphere, so that turning the camera does not change the map's scale.
 		const Vector3 center = rotation * p_camera.transform.xform(slice.center());
-		const float radius_m = std::ceil(0.5f * glm::length(slice.size()) * 16.0f) / 16.0f;
+		const float exact_radius_m = 0.5f * glm::length(slice.size());
+		const float step_m = std::exp2(std::floor(std::log2(exact_radius_m)) - 6.0f); // 1/16 m from 4 to 8 m
+		const float radius_m = std::ceil(exact_radius_m / step_m) * step_m;
 		Vector2 low, high;
 		for (int axis = 0; axis < 2; axis++) {
 			if (box.max[axis] - box.min[axis] <= 2.0f * radius_m) {
-				low[axis] = box.min[axis] - 0.01f;
-				high[axis] = box.max[axis] + 0.01f;
+				low[axis] = box.min[axis] - margin_m;
+				high[axis] = box.max[axis] + margin_m;
 			} else {
 				const float texel_m = 2.0f * radius_m / float(SUN_SIZE_TEXELS - 2);
 				low[axis] = std::floor((center[axis] - radius_m) / texel_m) * texel_m;
 				high[axis] = low[axis] + texel_m * float(SUN_SIZE_TEXELS);
 			}
 		}
-		const float depth_margin_m = 0.01f + 0.001f * (box.max.z - box.min.z);
+		const float depth_margin_m = margin_m + 0.001f * (box.max.z - box.min.z);
 		const Vector3 minimum(low, box.min.z - depth_margin_m);
 		const Vector3 maximum(high, box.max.z + depth_margin_m);
 		Projection clip_from_light(1.0f);

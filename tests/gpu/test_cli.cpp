@@ -74,11 +74,11 @@ CommandResult render(const Folder &p_folder, const std::string &p_scene, const s
 	return lucent_command("render '" + p_scene + "' -o '" + p_folder.output() + "' --size 32x18 --frames 1 --quiet --set 'WorldEnvironment:environment:sdfgi_enabled=false'" + device_option() + " " + p_more);
 }
 
-// Exactly one error line, the code, and nothing written.
-void check_refused(const CommandResult &p_result, const Folder &p_folder, int p_code, const std::string &p_word) {
+// Exactly that many error lines, the code, and nothing written.
+void check_refused(const CommandResult &p_result, const Folder &p_folder, int p_code, const std::string &p_word, int p_lines = 1) {
 	INFO(p_result.err);
 	CHECK(p_result.code == p_code);
-	CHECK(p_result.count("error: ") == 1);
+	CHECK(p_result.count("error: ") == p_lines);
 	CHECK(p_result.count(p_word) >= 1);
 	CHECK_FALSE(fs::exists(p_folder.output()));
 }
@@ -257,8 +257,38 @@ TEST_CASE("cli: what can go on goes on, with a warning") {
 	const Folder folder;
 	check_warned(render(folder, folder.file("no_meshes.tscn", "[gd_scene format=3]\n\n[node name=\"Empty\" type=\"Node3D\"]\n")), folder, "no_meshes.tscn");
 	folder.file("zero.png", "");
-	check_warned(render(folder, triangle_gltf(folder, 2, 0.0f, "3", R"(,"images":[{"uri":"zero.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])")), folder, "zero.png");
+	const std::string textured = triangle_gltf(folder, 2, 0.0f, "3", R"(,"images":[{"uri":"zero.png"}],"textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
+	fs::remove(folder.output());
+	check_refused(render(folder, textured, "--strict"), folder, EXIT_BAD_INPUT, "(--strict)", 2);
+	const CommandResult rest = render(folder, textured); // an error line for the part, and the rest is drawn
+	INFO(rest.err);
+	CHECK(rest.code == EXIT_OK);
+	CHECK(rest.count("error: ") == 1);
+	CHECK(rest.count("zero.png") >= 1);
+	CHECK(fs::exists(folder.output()));
 	check_warned(render(folder, folder.file("unknown.tscn", "[gd_scene format=3]\n\n[node name=\"A\" type=\"Node3D\"]\nbogus = 3\n[node name=\"B\" type=\"Gizmo9\" parent=\".\"]\n")), folder, "unknown.tscn:4");
+}
+
+TEST_CASE("cli: a scene without lights is the same picture at a millimetre and at 100 km, GI and shadows included") {
+	const Folder folder;
+	std::string pictures[2];
+	for (const int i : { 0, 1 }) {
+		const double scale = i == 0 ? 1e-3 : 1e5;
+		std::string text = "[gd_scene format=3]\n";
+		for (const char *size : { "2, 0.1, 2", "0.5, 1, 0.5" }) {
+			text += fmt::format("[sub_resource type=\"BoxMesh\" id=\"{}\"]\nsize = Vector3({})\n", size, size);
+		}
+		text += fmt::format("[node name=\"Root\" type=\"Node3D\"]\n[node name=\"All\" type=\"Node3D\" parent=\".\"]\ntransform = Transform3D({0}, 0, 0, 0, {0}, 0, 0, 0, {0}, 0, 0, 0)\n", scale);
+		text += "[node name=\"Floor\" type=\"MeshInstance3D\" parent=\"All\"]\nmesh = SubResource(\"2, 0.1, 2\")\n"
+				"[node name=\"Box\" type=\"MeshInstance3D\" parent=\"All\"]\nmesh = SubResource(\"0.5, 1, 0.5\")\n";
+		pictures[i] = (folder.path / fmt::format("{}.exr", i)).string();
+		const CommandResult result = lucent_command("render '" + folder.file("scaled.tscn", text) + "' -o '" + pictures[i] + "' --size 48x27 --frames 2 --quiet" + device_option());
+		INFO(result.err);
+		REQUIRE(result.code == EXIT_OK);
+	}
+	const CommandResult compared = lucent_command("compare '" + pictures[0] + "' '" + pictures[1] + "' --threshold nrmse=0.01");
+	INFO(compared.err);
+	CHECK(compared.code == EXIT_OK);
 }
 
 TEST_CASE("cli: outputs that can't be written") {

@@ -31,7 +31,8 @@ TEST_CASE("ranges of the environment") {
 	scene::Environment environment;
 	CHECK_FALSE(environment.set("sdfgi_cascades", 0));
 	CHECK_FALSE(environment.set("sdfgi_cascades", 9));
-	CHECK_FALSE(environment.set("sdfgi_min_cell_size", 0.001));
+	CHECK(environment.set("sdfgi_min_cell_size", 0.00001)); // a model of a millimetre
+	CHECK_FALSE(environment.set("sdfgi_min_cell_size", 0));
 	CHECK_FALSE(environment.set("sdfgi_min_cell_size", -1));
 	CHECK_FALSE(environment.set("sdfgi_bounce_feedback", 2.5));
 	CHECK_FALSE(environment.set("sdfgi_y_scale", 3));
@@ -39,8 +40,8 @@ TEST_CASE("ranges of the environment") {
 	CHECK_FALSE(environment.set("sky", Variant(std::make_shared<scene::ProceduralSkyMaterial>())));
 	CHECK(environment.set("tonemap_exposure", 100)); // the slider ends at 16, the property does not
 	// A far reach with few cascades still has a legal cell.
-	CHECK(environment.set("sdfgi_max_distance", 1e9));
-	CHECK(environment.get_sdfgi_min_cell_size() == 64.0f);
+	CHECK(environment.set("sdfgi_max_distance", 1e12));
+	CHECK(environment.get_sdfgi_min_cell_size() == 1e6f);
 	environment.set_sdfgi_cascades(-5);
 	CHECK(environment.get_sdfgi_cascades() == 1);
 }

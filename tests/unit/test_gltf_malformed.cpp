@@ -78,7 +78,6 @@ TEST_CASE("glTF: buffer views and accessors stay inside their bytes") {
 	check_error(with(",\"byteLength\":-1", ""), "/bufferViews/0/byteLength: expected an integer");
 	const std::string floats = R"("bufferView":0,"componentType":5126,"type":"VEC3")";
 	check_error(with(",\"byteLength\":12", floats + ",\"count\":2"), "/accessors/0: 2 elements from byte 0 need 24 bytes, the buffer view has 12");
-	check_error(with(",\"byteLength\":12", floats + ",\"count\":0"), "/accessors/0/count: expected at least 1");
 	check_error(with(",\"byteLength\":12", floats + ",\"count\":4294967296"), "/accessors/0/count: expected an integer from 0 to 4294967294");
 	check_error(with(",\"byteLength\":12", floats + ",\"count\":1.5"), "/accessors/0/count: expected an integer");
 	check_error(with(",\"byteLength\":12", floats + ",\"count\":4294967294"), "/accessors/0: 4294967294 elements from byte 0 need 51539607528 bytes");
@@ -152,4 +151,35 @@ TEST_CASE("glTF: broken compressed data is an error") {
 	check_error(parse_members(buffer + R"(,"bufferViews":[{"buffer":0,"byteLength":12}],"accessors":[{"componentType":5126,"type":"VEC3","count":3}],
 		"meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}])"),
 			"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: broken Draco data");
+}
+
+TEST_CASE("glTF: empty accessors and views are read around with a warning") {
+	const std::string buffer = R"(,"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteLength":0}])";
+	const Result<GltfDocument> parsed = parse_members(buffer + R"(,"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},{"componentType":5126,"type":"VEC3","count":0},
+		{"bufferView":1,"componentType":5126,"type":"VEC3","count":0}],
+		"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},{"primitives":[{"attributes":{"POSITION":1}}]},{"primitives":[{"attributes":{"POSITION":2}}]}])");
+	INFO(parsed.error().message);
+	REQUIRE(parsed.ok());
+	const GltfDocument &document = parsed.value();
+	REQUIRE(document.meshes.size() == 3);
+	CHECK(document.warnings.size() == 5); // a view, two accessors, two primitives
+	CHECK(document.warnings[0].find("/bufferViews/1: the view is empty") != std::string::npos);
+	CHECK(document.warnings[1].find("/accessors/1: the accessor is empty") != std::string::npos);
+}
+
+TEST_CASE("glTF: backslashes in URIs are slashes, and nothing more") {
+	std::string asked;
+	const GltfFileReader reader = [&asked](const std::string &p_uri) -> Result<std::vector<std::byte>> {
+		asked = p_uri;
+		return std::vector<std::byte>(4);
+	};
+	const auto parse = [&](const std::string &p_uri) {
+		return parse_gltf(lucent::test::text_bytes(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":")" + p_uri + "\"}]}"), "test.gltf", reader);
+	};
+	const Result<GltfDocument> parsed = parse("textures\\\\a.bin");
+	REQUIRE(parsed.ok());
+	CHECK(asked == "textures/a.bin");
+	CHECK(parsed.value().warnings.size() == 1);
+	CHECK_FALSE(parse("\\\\etc\\\\passwd").ok()); // an absolute path stays refused
+	CHECK_FALSE(parse("C:\\\\a.bin").ok());
 }

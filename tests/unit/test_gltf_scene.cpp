@@ -54,7 +54,7 @@ TEST_CASE("glTF scene: nodes have the file's names, places and kinds") {
 
 TEST_CASE("glTF scene: materials reach the server with the file's linear values") {
 	const std::unique_ptr<scene::Node> root = make_scene(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"nodes":[{"mesh":0}],
-		"images":[{"uri":"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNoaPgPAAMFAf+t/SErAAAAAElFTkSuQmCC"}],"textures":[{"source":0}],
+		"images":[{"uri":"data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mNoaPgPAAODAgA+WCglAAAAAElFTkSuQmCC"}],"textures":[{"source":0}],
 		"materials":[{"doubleSided":true,"pbrMetallicRoughness":{"baseColorFactor":[0.2,0.4,0.6,0.8],"metallicRoughnessTexture":{"index":0,"texCoord":1}},
 		"emissiveFactor":[1,0.5,0.25],"emissiveTexture":{"index":0},"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":10},"KHR_materials_specular":{"specularFactor":0,"specularColorFactor":[1,0.5,0]}}}],)");
 	const scene::MeshInstance3D *mesh = dynamic_cast<scene::MeshInstance3D *>(root->get_child(0));

@@ -171,7 +171,18 @@ TEST_CASE("JPEG: a grey picture is decoded, a cut one is an error") {
 	}
 }
 
-TEST_CASE("JPEG: a Huffman table of more than 256 codes is an error") {
+TEST_CASE("JPEG: a few bytes don't ask for half a gigabyte") {
+	std::vector<std::byte> file = tiny_jpeg();
+	const std::byte marker[] = { std::byte(0xFF), std::byte(0xC0) };
+	const auto frame = std::search(file.begin(), file.end(), std::begin(marker), std::end(marker));
+	REQUIRE(file.end() - frame > 9);
+	std::fill(frame + 5, frame + 9, std::byte(0x2D)); // 11565 x 11565
+	const Result<Image> image = load_image_from_memory(file, "a.jpg");
+	REQUIRE(!image.ok());
+	CHECK(contains(image.error().message, "bytes can't hold 11565 x 11565 texels"));
+}
+
+TEST_CASE("JPEG: a Huffman table of more codes than there are is an error") {
 	std::vector<std::byte> file = tiny_jpeg();
 	const std::byte marker[] = { std::byte(0xFF), std::byte(0xC4) };
 	const auto table = std::search(file.begin(), file.end(), std::begin(marker), std::end(marker));
@@ -179,7 +190,35 @@ TEST_CASE("JPEG: a Huffman table of more than 256 codes is an error") {
 	std::fill(table + 5, table + 21, std::byte(255));
 	const Result<Image> image = load_image_from_memory(file, "a.jpg");
 	REQUIRE(!image.ok());
-	CHECK(contains(image.error().message, "a.jpg: broken or truncated JPEG data (a Huffman table of more than 256 codes)"));
+	CHECK(contains(image.error().message, "a.jpg: broken or truncated JPEG data (Bogus Huffman table definition)"));
+}
+
+TEST_CASE("BMP, TGA and WebP: two texels, red and half green") {
+	// Rows from the bottom, blue first.
+	const std::string bmp("BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\x08\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xff\0\x80\0\0\0", 62);
+	const std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\x18\x20\0\0\xff\0\x80\0", 24);
+	for (const auto &[text, name] : { std::pair{ bmp, "a.bmp" }, std::pair{ tga, "a.tga" } }) {
+		const Result<Image> image = load_image_from_memory(to_bytes(text), name);
+		REQUIRE_MESSAGE(image.ok(), image.error().message);
+		CHECK(image.value().width == 2);
+		CHECK(image.value().height == 1);
+		const Result<Image> cut = load_image_from_memory(to_bytes(text.substr(0, text.size() - 3)), name); // in the last texel
+		REQUIRE_FALSE(cut.ok());
+		CHECK(contains(cut.error().message, "ends too early"));
+		const std::vector<int> expected = { 255, 0, 0, 255, 0, 128, 0, 255 };
+		for (size_t i = 0; i < 8; i++) {
+			CHECK(int(image.value().texels[i]) == expected[i]);
+		}
+	}
+	CHECK_FALSE(load_image_from_memory(to_bytes(tga), "a.xyz").ok());
+	// libwebp's own lossless encoding of the same two texels.
+	const std::string webp("RIFF\x1e\0\0\0WEBPVP8L\x11\0\0\0\x2f\1\0\0\0\x0f\x50\xc0\xf9\x8f\xf9\x0f\x43\x46\xf4\x3f\0\0", 38);
+	const Result<Image> image = load_image_from_memory(to_bytes(webp), "a.webp");
+	REQUIRE_MESSAGE(image.ok(), image.error().message);
+	CHECK(image.value().width == 2);
+	CHECK(int(image.value().texels[0]) == 255);
+	CHECK(int(image.value().texels[5]) == 128);
+	CHECK_FALSE(load_image_from_memory(to_bytes(webp.substr(0, 24)), "a.webp").ok());
 }
 
 TEST_CASE("A broken image gives one error that names the file") {

@@ -1,93 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "modules/scene/image_loader.h"
-#include "modules/scene/packed_scene.h"
-#include "modules/scene/register_scene_types.h"
-#include "modules/tscn/text_loader.h"
-
-#include <doctest/doctest.h>
-
-#include <filesystem>
-#include <fstream>
+#include "tests/unit/tscn_test_files.h"
 
 using namespace lucent;
-namespace fs = std::filesystem;
-
-namespace {
-
-// A folder of files; goes away with the test.
-struct Project {
-	fs::path path;
-	Project() {
-		std::string name = (fs::temp_directory_path() / "lucent-tscn-XXXXXX").string();
-		path = mkdtemp(name.data());
-	}
-	~Project() {
-		std::error_code ignored;
-		fs::remove_all(path, ignored);
-	}
-	std::string file(const std::string &p_name, const std::string &p_text) const {
-		fs::create_directories((path / p_name).parent_path());
-		std::ofstream(path / p_name, std::ios::binary) << p_text;
-		return (path / p_name).string();
-	}
-};
-
-// Collects warnings while it lives.
-struct LogCapture {
-	std::vector<std::string> messages;
-	LogHandler before;
-	LogCapture() {
-		before = set_log_handler([this](LogLevel, std::string_view p_message) { messages.emplace_back(p_message); });
-	}
-	~LogCapture() { set_log_handler(before); }
-	int count(const std::string &p_text) const {
-		int found = 0;
-		for (const std::string &message : messages) {
-			found += message.find(p_text) != std::string::npos;
-		}
-		return found;
-	}
-};
-
-// Classes and loaders, as the program has them.
-Result<Ref<Resource>> load(const std::string &p_path) {
-	scene::register_scene_classes();
-	scene::register_image_loaders();
-	register_tscn_loaders();
-	return scene::ResourceLoader::load(p_path);
-}
-
-std::unique_ptr<scene::Node> build(const std::string &p_path) {
-	Result<Ref<Resource>> resource = load(p_path);
-	INFO(resource.error().message);
-	REQUIRE(resource.ok());
-	const Ref<scene::PackedScene> packed = std::dynamic_pointer_cast<scene::PackedScene>(resource.value());
-	REQUIRE(packed);
-	Result<std::unique_ptr<scene::Node>> root = packed->instantiate();
-	INFO(root.error().message);
-	REQUIRE(root.ok());
-	return root.take();
-}
-
-std::string failure(const std::string &p_path) {
-	Result<Ref<Resource>> resource = load(p_path);
-	if (!resource) {
-		return resource.error().message;
-	}
-	const Ref<scene::PackedScene> packed = std::dynamic_pointer_cast<scene::PackedScene>(resource.value());
-	REQUIRE(packed);
-	const Result<std::unique_ptr<scene::Node>> root = packed->instantiate();
-	CHECK_FALSE(root.ok());
-	return root.error().message;
-}
-
-Variant property(scene::Node &p_root, const char *p_node, const char *p_property) {
-	scene::Node *node = p_root.get_node_or_null(NodePath(p_node));
-	REQUIRE_MESSAGE(node != nullptr, p_node);
-	return node->get(p_property);
-}
-
-} // namespace
+using namespace lucent::test;
 
 TEST_CASE("tscn: nodes, parents, sub-resources, groups") {
 	const Project project;
@@ -188,13 +103,13 @@ TEST_CASE("tscn: an inherited scene") {
 	CHECK(property(*root, "Lamp", "omni_range") == Variant(2.0));
 }
 
-TEST_CASE("tscn: what is unknown is skipped with one warning that has file and line") {
+TEST_CASE("tscn: what is unknown is skipped with one warning a kind that has file and line") {
 	const Project project;
 	const LogCapture log;
 	const auto root = build(project.file("odd.tscn", R"([gd_scene format=3]
 [ext_resource type="Script" path="res://missing.gd" id="s"]
 [ext_resource type="Texture2D" path="res://missing.png" id="t"]
-[sub_resource type="FastNoiseLite" id="n"]
+[sub_resource type="FancyNoise" id="n"]
 frequency = 0.005
 [sub_resource type="StandardMaterial3D" id="m"]
 albedo_texture = ExtResource("t")
@@ -218,8 +133,9 @@ metadata/_edit_lock_ = true
 	CHECK(log.count("odd.tscn:11: class FancyWater3D") == 1);
 	CHECK(log.count("odd.tscn:15: MeshInstance3D has no property 'bogus'") == 1);
 	CHECK(log.count("odd.tscn:17: ") == 1);
-	CHECK(log.count("odd.tscn:18: class Timer") == 1);
+	CHECK(log.count("odd.tscn:18: class Timer") == 1); // at INFO, which is printed only when verbose
 	CHECK(log.messages.size() == 8);
+	CHECK(log.errors == 2); // the texture and the node without a parent
 	CHECK(property(*root, "Water", "transform").get_component("origin") == Variant(Vector3(0, 7, 0)));
 	CHECK(root->get_node_or_null(NodePath("Water/Box")) != nullptr);
 	CHECK(root->get_node_or_null(NodePath("Nowhere/Lost")) == nullptr);
@@ -237,6 +153,39 @@ process_priority = 3
 )"));
 	CHECK(log.count("lamp.tscn:4: scripts are not run: 'Lamp' loses _ready, _process of lamp.gd; lucent.attach() in Python can replace it") == 1);
 	CHECK(log.messages.size() == 1);
+}
+
+TEST_CASE("tscn: scripts are one counted line; C# and scripts in the scene count, null does not") {
+	const Project project;
+	const LogCapture log;
+	project.file("project.godot", "config_version=5\n");
+	project.file("new/lamp.gd", "extends Node\nfunc _ready():\n\tpass\n");
+	project.file("new/lamp.gd.uid", "uid://lamp1\n");
+	build(project.file("many.tscn", R"([gd_scene format=3]
+[ext_resource type="Script" uid="uid://lamp1" path="res://old/lamp.gd" id="1"]
+[ext_resource type="Script" path="res://Door.cs" id="2"]
+[sub_resource type="GDScript" id="3"]
+script/source = "extends Node
+func _process(delta):
+	pass
+"
+[node name="Lamp" type="Node3D"]
+script = ExtResource("1")
+[node name="Door" type="Node3D" parent="."]
+script = ExtResource("2")
+speed = 3.0
+[node name="Inner" type="Node3D" parent="."]
+script = SubResource("3")
+[node name="None" type="Node3D" parent="."]
+script = null
+)"));
+	CHECK(log.count("many.tscn:10: scripts are not run: 'Lamp' loses _ready of lamp.gd; lucent.attach() in Python can replace it (3 times)") == 1);
+	CHECK(log.count("many.tscn:12: scripts are not run: 'Door' loses Door.cs") == 1);
+	CHECK(log.count("many.tscn:15: scripts are not run: 'Inner' loses a script") == 1);
+	CHECK(log.count("many.tscn:13: Node3D has no property 'speed'") == 1); // the script's
+	CHECK(log.messages.size() == 4);
+	CHECK(log.infos == 3); // all but the first, for --verbose
+	CHECK(log.errors == 0);
 }
 
 TEST_CASE("tscn: broken files say file and line") {

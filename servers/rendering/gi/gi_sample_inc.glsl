@@ -215,7 +215,7 @@ ProbeSums sample_probes(GiQuery query, uint cascade, vec3 reflected, bool with_r
 			continue;
 		}
 		vec3 to_probe = probe_position_m(cascade, probe, place) - query.start_m;
-		float distance_m = max(length(to_probe), 1e-4);
+		float distance_m = max(length(to_probe), 1e-12);
 		vec3 axis_weight = mix(1.0 - f, f, vec3(corner));
 		float weight = max(axis_weight.x * axis_weight.y * axis_weight.z, 1e-3);
 		float facing = dot(to_probe / distance_m, query.normal) * 0.5 + 0.5;

@@ -68,7 +68,7 @@ EmitterSample sample_emitter(vec3 from_m, vec3 normal, float pick, vec2 u) {
 	EmitterSample result;
 	result.record = emitter.record;
 	vec3 way = emitter_point_m(record, u) - from_m;
-	float distance_squared = max(dot(way, way), 1e-6);
+	float distance_squared = max(dot(way, way), 1e-24);
 	float distance_m = sqrt(distance_squared);
 	result.ray.direction = way / distance_m;
 	result.ray.t_max_m = distance_m;

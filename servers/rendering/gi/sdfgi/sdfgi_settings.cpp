@@ -19,7 +19,7 @@ std::string sdfgi_settings_error(const SdfgiSettings &p_settings) {
 	};
 	const Range ranges[] = {
 		{ "cascades", double(s.cascades), 1, 8, false },
-		{ "min_cell_size_m", s.min_cell_size_m, 0.01, 64, false },
+		{ "min_cell_size_m", s.min_cell_size_m, 1e-6, 1e6, false },
 		{ "grid_size_cells", double(s.grid_size_cells), 64, 256, true },
 		{ "probe_spacing_cells", double(s.probe_spacing_cells), 4, 16, true },
 		{ "probe_rays", double(s.probe_rays), 1, 64, true },

@@ -22,7 +22,7 @@ inline float sdfgi_y_multiplier(SdfgiYScale p_scale) {
 struct SdfgiSettings {
 	bool enabled = false;
 	uint32_t cascades = 4; // 1 to 8
-	float min_cell_size_m = 0.2f; // 0.01 to 64; cascade c has min_cell_size * 2^c
+	float min_cell_size_m = 0.2f; // 1e-6 to 1e6; cascade c has min_cell_size * 2^c
 	SdfgiYScale y_scale = SdfgiYScale::SCALE_75_PERCENT;
 	bool use_occlusion = true; // Godot: false. Visibility between shaded point and probe; without it walls leak
 	float bounce_feedback = 1.0f; // Godot: 0.5. 1 is physical

@@ -295,7 +295,7 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 bool world_is_free(vec3 from_m, vec3 to_m, uint first_cascade) {
 	vec3 way = to_m - from_m;
 	float distance = length(way);
-	if (distance < 1e-6) {
+	if (distance < 1e-12) {
 		return true;
 	}
 	return !trace_world(from_m, way / distance, distance, first_cascade).hit;
