@@ -5,14 +5,48 @@
 
 namespace lucent {
 
-AABB visible_bounds(const RenderScene &p_scene) {
-	AABB bounds;
+std::vector<AABB> visible_boxes(const RenderScene &p_scene) {
+	std::vector<AABB> boxes;
 	p_scene.instances.for_each([&](InstanceRid, const Instance &p_instance) {
 		const Mesh *mesh = p_scene.meshes.get(p_instance.mesh);
 		if (mesh != nullptr && p_instance.visible && !mesh->aabb.is_empty()) {
-			bounds.merge_with(mesh->aabb.xform(p_instance.transform));
+			boxes.push_back(mesh->aabb.xform(p_instance.transform));
 		}
 	});
+	return boxes;
+}
+
+static AABB merged(const std::vector<AABB> &p_boxes) {
+	AABB bounds;
+	for (const AABB &box : p_boxes) {
+		bounds.merge_with(box);
+	}
+	return bounds;
+}
+
+AABB visible_bounds(const RenderScene &p_scene) {
+	return merged(visible_boxes(p_scene));
+}
+
+AABB bounds_without_backdrop(std::vector<AABB> p_boxes) {
+	static const float BACKDROP_RADII = 4.0f;
+	static const float FLAT = 0.02f; // smallest by largest side
+	const auto size = [](const AABB &p_box) { return glm::length(p_box.size()); };
+	const auto is_flat = [](const AABB &p_box) {
+		const Vector3 sides = p_box.size();
+		return std::min({ sides.x, sides.y, sides.z }) <= FLAT * std::max({ sides.x, sides.y, sides.z });
+	};
+	std::sort(p_boxes.begin(), p_boxes.end(), [&](const AABB &p_a, const AABB &p_b) { return size(p_a) < size(p_b); });
+	AABB bounds = merged(p_boxes);
+	while (p_boxes.size() > 1 && is_flat(p_boxes.back())) {
+		const float largest = size(p_boxes.back());
+		p_boxes.pop_back();
+		const AABB rest = merged(p_boxes);
+		if (!(largest > BACKDROP_RADII * size(rest))) {
+			break;
+		}
+		bounds = rest;
+	}
 	return bounds;
 }
 

@@ -43,7 +43,7 @@ Status RenderSession::load(const std::string &p_path, bool p_strict) {
 	const PreviewNodes preview = add_preview_environment(*scene.value());
 	tree.set_current_scene(scene.take());
 	tree.flush();
-	fit_preview(preview, visible_bounds(server.scenario_snapshot()));
+	fit_preview(preview, bounds_without_backdrop(visible_boxes(server.scenario_snapshot())));
 	return Ok();
 }
 

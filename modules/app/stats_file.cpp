@@ -41,6 +41,11 @@ bool is_gi_pass(const std::string &p_name) {
 }
 
 void PassTimes::add(const std::vector<std::pair<std::string, double>> &p_frame) {
+	// A frame that the server waited for is told again until the next has finished.
+	if (p_frame == last_frame) {
+		return;
+	}
+	last_frame = p_frame;
 	frame_count += p_frame.empty() ? 0 : 1;
 	for (const auto &[name, gpu_ms] : p_frame) {
 		auto found = std::find_if(entries.begin(), entries.end(), [&](const Pass &p_pass) { return p_pass.name == name; });

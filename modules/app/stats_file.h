@@ -31,6 +31,7 @@ public:
 
 private:
 	std::vector<Pass> entries; // in order of appearance
+	std::vector<std::pair<std::string, double>> last_frame;
 	uint32_t frame_count = 0; // with times
 };
 

@@ -35,3 +35,13 @@ TEST_CASE("preview: camera, cells and shadows in proportion from a millimetre to
 		CHECK(camera->parameters.near_m == framing.near_m);
 	}
 }
+
+TEST_CASE("preview: a ground plane around a room does not set the size of GI's cells") {
+	const AABB table{ Vector3(-1.0f, 0.0f, -0.5f), Vector3(1.0f, 0.8f, 0.5f) };
+	const AABB room{ Vector3(-4.0f, 0.0f, -3.0f), Vector3(4.0f, 3.0f, 3.0f) };
+	const AABB ground{ Vector3(-110.0f, -0.2f, -110.0f), Vector3(110.0f, -0.2f, 110.0f) };
+	CHECK(bounds_without_backdrop({ ground, table, room }).size() == room.size());
+	CHECK(bounds_without_backdrop({ room, table }).size() == room.size());
+	CHECK(bounds_without_backdrop({ ground }).size() == ground.size());
+	CHECK(bounds_without_backdrop({}).is_empty());
+}
