@@ -37,7 +37,7 @@
 #define WORLD_CELL_FLAT 0x80000000u
 
 // A cell that at most this many triangles touch lists them: rays meet the triangles themselves there, not the solid bits.
-#define WORLD_LISTED_TRIANGLES 254u
+#define WORLD_LISTED_TRIANGLES 62u
 #define WORLD_NOT_LISTED 0xFFFFFFFFu
 // Instead of a count: one plane covers the cell from side to side.
 #define WORLD_PLAIN 255u
