@@ -76,9 +76,9 @@ python_suite() {
 	say "== Python"
 	env "${settings[@]}" timeout 600 /usr/bin/python3 -m pytest -q -p no:cacheprovider "$root/tests/python" 2>&1 | tee "$log" >&2 || status=1
 	summary=$(tail -n 1 "$log")
-	ok=$(sed -n 's/.*[^0-9]\?\([0-9]\+\) passed.*/\1/p' <<<" $summary")
-	bad=$(sed -n 's/.*[^0-9]\([0-9]\+\) failed.*/\1/p' <<<" $summary")
-	skipped=$(sed -n 's/.*[^0-9]\([0-9]\+\) skipped.*/\1/p' <<<" $summary")
+	ok=$(sed -n 's/.* \([0-9]\+\) passed.*/\1/p' <<<" $summary")
+	bad=$(sed -n 's/.* \([0-9]\+\) failed.*/\1/p' <<<" $summary")
+	skipped=$(sed -n 's/.* \([0-9]\+\) skipped.*/\1/p' <<<" $summary")
 	if ((status != 0 && ${bad:-0} == 0)); then # it died
 		bad=1
 	fi
