@@ -43,6 +43,10 @@ bool short_way_is_free(uint cascade, vec3 from_m, vec3 to_m) {
 	walk.t_next = (vec3(walk.at) + step(vec3(0.0), way) - a) * inverse;
 	float t = 0.0;
 	for (uint i = 0u; i < SHORT_WAY_MAX_CELLS; i++) {
+		// Beyond the cascade its storage holds cells of the other side.
+		if (is_outside(walk.at - world.cascades[cascade].origin_cells, int(world.grid_size))) {
+			return false;
+		}
 		WorldCell cell = WORLD_CELL_ON_WAY(cascade, walk.at);
 		float t_leave = min(walk_leaves(walk), 1.0);
 		if (cell_is_plain(cell)) {

@@ -285,7 +285,8 @@ WorldHit trace_world(vec3 origin_m, vec3 direction, float t_max_m, uint first_ca
 		if (t >= t_max_m || steps >= TRACE_MAX_STEPS) {
 			break;
 		}
-		t = max(t, t_end);
+		// Not further: the distance field knows nothing of what lies beyond the cascade, and a sphere may reach there.
+		t = t_end;
 		cascade = next_cascade;
 	}
 	return result;
