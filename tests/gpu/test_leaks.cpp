@@ -21,6 +21,17 @@ constexpr uint32_t PIXELS = 48; // a side of a picture of a room's side
 // Of a picture's sides to the room's, so that the outermost pixels' centres are 0.01 mm from the edges.
 constexpr float REACH = float(PIXELS) / float(PIXELS - 1) * (1.0f - 2e-5f);
 
+SdfgiSettings leak_settings(uint32_t p_cascades, uint32_t p_grid_cells, SdfgiYScale p_scale) {
+	SdfgiSettings settings;
+	settings.enabled = true;
+	settings.cascades = p_cascades;
+	settings.grid_size_cells = p_grid_cells;
+	settings.min_cell_size_m = 0.1f;
+	settings.y_scale = p_scale;
+	settings.frames_to_converge = 4;
+	return settings;
+}
+
 // Each stands on its own place between the cells, 7 to 182 mm along the diagonal and a little beside it.
 Projection frame_of(int p_offset, float p_angle_deg) {
 	const int i = p_offset % ROOMS;
@@ -75,13 +86,7 @@ TEST_SUITE("gpu") {
 	// 64 offsets x 8 angles x 2 thicknesses with --whole, else a scene of each thickness.
 	TEST_CASE("sealed rooms under a white sky stay exactly black") {
 		GpuFixture fixture;
-		SdfgiSettings settings;
-		settings.enabled = true;
-		settings.cascades = 1;
-		settings.grid_size_cells = 64;
-		settings.min_cell_size_m = 0.1f;
-		settings.y_scale = SdfgiYScale::SCALE_75_PERCENT;
-		settings.frames_to_converge = 4;
+		const SdfgiSettings settings = leak_settings(1, 64, SdfgiYScale::SCALE_75_PERCENT);
 		int rooms = 0, leaking = 0;
 		for (const float wall_m : WALLS_M) {
 			for (const float angle_deg : ANGLES_DEG) {
@@ -117,13 +122,7 @@ TEST_SUITE("gpu") {
 	// Walls a few cells past the edge of the finest cascade, whose distance field doesn't know them: rays must not step over them.
 	TEST_CASE("a sealed room that reaches past a cascade's edge stays exactly black") {
 		GpuFixture fixture;
-		SdfgiSettings settings;
-		settings.enabled = true;
-		settings.cascades = 2;
-		settings.grid_size_cells = 32;
-		settings.min_cell_size_m = 0.1f;
-		settings.y_scale = SdfgiYScale::SCALE_100_PERCENT;
-		settings.frames_to_converge = 4;
+		const SdfgiSettings settings = leak_settings(2, 32, SdfgiYScale::SCALE_100_PERCENT);
 		for (const float past_m : { 0.13f, 0.42f }) {
 			INFO(past_m);
 			GiTestScene scene(fixture.device());
