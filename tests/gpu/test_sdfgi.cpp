@@ -191,7 +191,7 @@ TEST_SUITE("gpu") {
 
 	TEST_CASE("a sealed room beside a bright one stays exactly black behind a 5 cm wall") {
 		GpuFixture fixture;
-		for (const float offset : { 0.0f, 0.07f, 0.16f }) {
+		for (const float offset : { 0.0f, 0.03f, 0.07f, 0.11f, 0.16f }) {
 			GiTestScene scene(fixture.device());
 			const uint32_t white = scene.add_material(Vector3(0.8f));
 			const uint32_t lamp = scene.add_material(Vector3(0.8f), Vector3(50.0f));
