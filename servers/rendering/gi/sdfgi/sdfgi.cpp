@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "servers/rendering/gi/sdfgi/sdfgi.h"
-
-#include "servers/rendering/device/rendering_device.h"
 #include "servers/rendering/gi/sdfgi/sdfgi_cascades.h"
-#include "servers/rendering/gi/sdfgi/sdfgi_passes.h"
+#include "servers/rendering/gi/sdfgi/sdfgi_impl.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 namespace lucent {
 
@@ -15,19 +10,6 @@ namespace {
 
 constexpr uint32_t PROBE_TILES_A_ROW = 256;
 constexpr uint32_t PROBE_AVERAGE_VISITS = 8;
-constexpr uint32_t MAX_TURNS = 32; // light_records.comp.glsl keeps a bit a turn
-// Light is settled when fewer than this share of the lit records moved by over SETTLED_CHANGE in a frame, or after this many frames.
-constexpr double SETTLED_SHARE = 0.01;
-constexpr uint32_t MAX_FRAMES = 400;
-constexpr uint32_t CHECK_PERIOD_FRAMES = 4; // each check waits for the device
-// After a change the first frames' bounces are missing: the probes start their means anew after this many.
-constexpr uint32_t PROBE_RESTART_FRAMES = 8;
-// Rounds of each probe's texels before all counts as settled; probes that are not near take PROBE_FAR_PERIOD frames for one frame's share.
-constexpr uint32_t PROBE_LEAST_ROUNDS = std::max(5, PROBE_FAR_PERIOD);
-
-// By FETCHES_*.
-constexpr const char *COUNTED_PASSES[FETCHES_PASSES] = { "sdfgi.trace_records", "sdfgi.light_lamps", "sdfgi.light_records", "sdfgi.trace_probes", "sdfgi.trace_far_probes", "sdfgi.filter_probes", "sdfgi.filter_far_probes", "sdfgi.gather_gi", "sdfgi.gather_rays" };
-
 struct DebugView {
 	const char *name;
 	uint32_t number; // DEBUG_VIEW_* in debug_gi.comp.glsl
@@ -35,68 +17,6 @@ struct DebugView {
 constexpr DebugView DEBUG_VIEWS[] = { { "sdf", 0 }, { "albedo", 1 }, { "light", 2 }, { "emission", 3 }, { "normals", 4 }, { "cascade", 5 }, { "probes", 6 }, { "occlusion", 7 }, { "radiance", 8 } };
 
 } // namespace
-
-struct Sdfgi::Impl {
-	explicit Impl(RenderingDevice &p_device) :
-			device(p_device) {}
-
-	RenderingDevice &device;
-	SdfgiSettings settings;
-	std::unique_ptr<GiWorld> world;
-	OwnedBuffer probe_params;
-	OwnedBuffer probe_places;
-	OwnedBuffer probe_list;
-	OwnedBuffer statistics;
-	OwnedBuffer fetch_counts;
-	OwnedBuffer ray_cache;
-	uint32_t ray_cache_words = 0;
-	OwnedBuffer ray_pixels; // of the largest picture so far
-	uint32_t ray_pixel_capacity = 0;
-	OwnedTexture radiance_atlas;
-	OwnedTexture irradiance_atlas;
-	SamplerHandle probe_sampler;
-	uint32_t probes_axis = 0;
-	bool cascades_placed = false;
-	uint64_t geometry_version = 0;
-	uint64_t light_version = 0;
-	TextureHandle sky;
-	BufferHandle lights;
-	uint32_t light_count = 0;
-	uint32_t frame = 0; // since anything changed
-	uint32_t running_frame = 0;
-	uint32_t turns_done = 0; // by trace_records since the geometry changed
-	uint32_t lamp_turns_done = 0; // by light_lamps since anything changed
-	bool light_settled = false;
-	bool converged = false; // the probes too
-	bool gathered = false; // in the frame that was last recorded
-	bool picture_counted = false; // of a picture at rest the pixels that lack records
-	uint64_t peak_rays = 0; // in a frame, since anything changed
-	// Of the frame that was last recorded:
-	bool checks_light = false; // its counts are to be read
-	bool checks_room = false; // whether the world holds a scene that is new to it
-	GiWorldRoom least_room; // what the scene has needed
-	bool needs_room = false; // more than the world has
-	bool may_settle = false; // it traced no more than the probes' rays
-	GiStats stats;
-
-	uint32_t turns() const { return std::clamp(settings.frames_to_converge, 1u, MAX_TURNS); }
-	// Each turn traces all lamps, so many lamps have fewer turns.
-	uint32_t lamp_turns() const { return std::max(turns() / std::max(std::bit_ceil(light_count) / 8, 1u), 1u); }
-	// After which every texel of every probe has been traced since the first frames.
-	uint32_t frames_of_probes() const { return PROBE_RESTART_FRAMES + PROBE_LEAST_ROUNDS * probe_texels() / probe_rays(); }
-	uint32_t probe_texels() const { return settings.probe_radiance_texels * settings.probe_radiance_texels; }
-	uint32_t probe_rays() const { return std::min(settings.probe_rays, probe_texels()); }
-	uint32_t probes_in_cascade() const { return probes_axis * probes_axis * probes_axis; }
-	void create(const SdfgiSettings &p_settings);
-	SdfgiPassInputs pass_inputs() const;
-	bool place_cascades(const Vector3 &p_camera_m, std::vector<uint32_t> &r_moved);
-	void upload_probe_params(PassRecorder &r_recorder, const Vector3 &p_camera_m);
-	void light_frame(PassRecorder &r_recorder);
-	void restart(bool p_geometry);
-	void read_fetches();
-	void read_gather_counts();
-	void check_room(const std::vector<shader::CascadeCounts> &p_counts);
-};
 
 Sdfgi::Sdfgi(RenderingDevice &p_device) :
 		impl(std::make_unique<Impl>(p_device)) {
@@ -285,72 +205,6 @@ void Sdfgi::update(PassRecorder &r_recorder, const SdfgiSettings &p_settings, co
 	if (!i.converged) {
 		i.light_frame(r_recorder);
 	}
-}
-
-void Sdfgi::Impl::read_fetches() {
-	const std::vector<shader::FetchCounts> counts = device.read_back_buffer<shader::FetchCounts>(fetch_counts);
-	for (uint32_t pass = 0; pass < FETCHES_PASSES; pass++) {
-		const shader::FetchCounts &count = counts[pass];
-		stats.fetches.push_back({ COUNTED_PASSES[pass], uint64_t(count.fetches_high) << 32 | count.fetches, uint64_t(count.bytes_high) << 32 | count.bytes });
-	}
-}
-
-void Sdfgi::Impl::read_gather_counts() {
-	const std::vector<std::byte> bytes = device.read_back_buffer(ray_pixels, 0, sizeof(shader::GatherCounts));
-	shader::GatherCounts counts;
-	std::memcpy(&counts, bytes.data(), sizeof(counts));
-	stats.startless_pixels = counts.startless;
-	stats.recordless_pixels = counts.recordless;
-	picture_counted = true;
-}
-
-// A scene that needs more room than the world has gets a larger world in the next frame.
-void Sdfgi::Impl::check_room(const std::vector<shader::CascadeCounts> &p_counts) {
-	if (const std::optional<GiWorldRoom> room = world->check_room(p_counts)) {
-		least_room = *room;
-		needs_room = true;
-	}
-}
-
-void Sdfgi::after_frame() {
-	Impl &i = *impl;
-	i.stats.fetches.clear();
-	if (i.world != nullptr && i.settings.count_fetches) {
-		i.read_fetches();
-	}
-	if (i.gathered && i.converged && !i.picture_counted) {
-		i.read_gather_counts();
-	}
-	i.gathered = false;
-	if (i.world != nullptr && i.checks_room && !i.checks_light) {
-		i.check_room(i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle()));
-	}
-	i.checks_room = false;
-	if (!i.checks_light || i.world == nullptr) {
-		return;
-	}
-	const std::vector<shader::SdfgiStatistics> statistics = i.device.read_back_buffer<shader::SdfgiStatistics>(i.statistics);
-	const std::vector<shader::CascadeCounts> counts = i.device.read_back_buffer<shader::CascadeCounts>(i.world->counts_handle());
-	i.peak_rays = std::max<uint64_t>(i.peak_rays, statistics[0].rays);
-	i.stats.rays = i.settings.count_every_frame ? statistics[0].rays : i.peak_rays;
-	if (statistics[0].met[GATHER_MET_SKY] + statistics[0].met[GATHER_MET_RECORD] > 0) { // a frame that traced
-		std::copy(std::begin(statistics[0].met), std::end(statistics[0].met), i.stats.gather_rays.begin());
-	}
-	i.stats.surface_cells = i.stats.listed_triangles = i.stats.plain_cells = i.stats.unlisted_cells = i.stats.surface_records = 0;
-	for (uint32_t c = 0; c < i.settings.cascades; c++) {
-		i.stats.surface_cells += counts[c].cells;
-		i.stats.surface_records += counts[c].records;
-		i.stats.listed_triangles += counts[c].triangles;
-		i.stats.plain_cells += counts[c].plain_cells;
-		i.stats.unlisted_cells += counts[c].unlisted_cells;
-	}
-	i.check_room(counts);
-	if (i.may_settle && i.frame % CHECK_PERIOD_FRAMES == 0) {
-		i.light_settled = i.light_settled || statistics[0].changed_records <= uint32_t(SETTLED_SHARE * statistics[0].lit_records) || i.frame >= MAX_FRAMES;
-		i.converged = i.light_settled && i.frame >= i.frames_of_probes();
-	}
-	i.stats.converged = i.converged;
-	i.checks_light = false;
 }
 
 void Sdfgi::gather(PassRecorder &r_recorder, const GiGatherInputs &p_inputs) {
